@@ -1,0 +1,2 @@
+//! Haptic rendering through flexible tools.
+fn main() {}

@@ -1,0 +1,1 @@
+//! GJK, EPA, ray and shape casts and a triangle BVH in f64.

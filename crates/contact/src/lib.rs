@@ -1,0 +1,3 @@
+//! Contact of a rigid haptic tool with convex objects.
+
+mod paper;

@@ -1,0 +1,1 @@
+//! Haptic devices: capabilities, workspace map, scripted motion.

@@ -1,0 +1,1 @@
+//! Validated triangle, half-edge and convex meshes with loaders and generators.

@@ -1,0 +1,1 @@
+//! Scene files: RON in, world and device choice out, errors with line and column.

@@ -1,0 +1,1 @@
+//! The haptic loop: paced or virtual time, device in and wrench out.

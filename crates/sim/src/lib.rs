@@ -1,0 +1,1 @@
+//! One haptic tick as a pure function: tool, world, coupling, contact.

@@ -1,0 +1,1 @@
+//! Campaigns, judges and scenes shared by the tests that span crates.
