@@ -1,0 +1,222 @@
+//! Closest point of a simplex of one to four points to the origin.
+//!
+//! The Voronoi regions are decided by the signs of barycentric coordinates, as in the signed volumes method of Montanari,
+//! Petrinic & Barbieri (2017); a point, edge or face is a candidate as soon as a sign allows it, and the nearest candidate
+//! wins, so a sign lost to rounding costs nothing. Departing from it, distance and direction do not come from the weighted
+//! sum of the vertices, which cancels when shapes are 1e-6 of their size apart, but from the feature itself: the plane
+//! normal of a triangle (for an edge of A against an edge of B that is their cross product), the twice orthogonalised
+//! rejection from a segment. The direction then stays exact to rounding at any gap.
+
+use glam::DVec3;
+
+use crate::support::DifferencePoint;
+
+/// Vectors shorter than this times the largest coordinate at hand are rounding noise: four units in the last place.
+pub(crate) const NOISE: f64 = 4.0 * f64::EPSILON;
+
+/// One to four vertices of the Minkowski difference, with the barycentric weights of the point nearest to the origin.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Simplex {
+    vertices: [DifferencePoint; 4],
+    weights: [f64; 4],
+    len: usize,
+}
+
+/// Point of a simplex nearest to the origin, as a direction and a distance.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// Unit vector from the origin towards the point; zero if the point is the origin itself.
+    pub(crate) normal: DVec3,
+    /// Distance of the point from the origin [m].
+    pub(crate) distance: f64,
+}
+
+/// Which of the simplex's vertices span the nearest feature, with what weights.
+#[derive(Clone, Copy)]
+struct Candidate {
+    nearest: Nearest,
+    corners: [usize; 3],
+    weights: [f64; 3],
+    len: usize,
+}
+
+impl Simplex {
+    pub(crate) const EMPTY: Self = Self {
+        vertices: [DifferencePoint::ZERO; 4],
+        weights: [0.0; 4],
+        len: 0,
+    };
+
+    pub(crate) fn vertices(&self) -> &[DifferencePoint] {
+        &self.vertices[..self.len]
+    }
+
+    /// Barycentric weights of the nearest point, after [`Simplex::reduce`].
+    pub(crate) fn weights(&self) -> &[f64] {
+        &self.weights[..self.len]
+    }
+
+    /// A triangle with the weights of a point on it.
+    pub(crate) fn triangle(vertices: [DifferencePoint; 3], weights: [f64; 3]) -> Self {
+        let mut simplex = Self::EMPTY;
+        simplex.vertices[..3].copy_from_slice(&vertices);
+        simplex.weights[..3].copy_from_slice(&weights);
+        simplex.len = 3;
+        simplex
+    }
+
+    /// Adds a vertex; a fifth is ignored.
+    pub(crate) fn push(&mut self, vertex: DifferencePoint) {
+        if self.len < 4 {
+            self.vertices[self.len] = vertex;
+            self.len += 1;
+        }
+    }
+
+    pub(crate) fn contains_vertex(&self, vertex: &DifferencePoint) -> bool {
+        self.vertices().iter().any(|own| own.same_vertices(vertex))
+    }
+
+    /// Largest distance of a vertex from the origin [m].
+    pub(crate) fn scale(&self) -> f64 {
+        self.vertices()
+            .iter()
+            .fold(0.0, |largest: f64, vertex| {
+                largest.max(vertex.point.length_squared())
+            })
+            .sqrt()
+    }
+
+    /// Keeps only the vertices of the feature nearest to the origin. `None`: four vertices that enclose the origin, all kept.
+    pub(crate) fn reduce(&mut self) -> Option<Nearest> {
+        let best = match self.len {
+            0 => return None,
+            1 => self.on_vertex(0),
+            2 => self.on_segment(0, 1),
+            3 => self.on_triangle(0, 1, 2),
+            _ => self.on_tetrahedron()?,
+        };
+        let vertices = self.vertices;
+        for (slot, &corner) in best.corners[..best.len].iter().enumerate() {
+            self.vertices[slot] = vertices[corner];
+            self.weights[slot] = best.weights[slot];
+        }
+        self.len = best.len;
+        Some(best.nearest)
+    }
+
+    fn on_vertex(&self, corner: usize) -> Candidate {
+        Candidate {
+            nearest: Nearest::from_vector(self.vertices[corner].point),
+            corners: [corner, 0, 0],
+            weights: [1.0, 0.0, 0.0],
+            len: 1,
+        }
+    }
+
+    fn on_segment(&self, i: usize, j: usize) -> Candidate {
+        let start = self.vertices[i].point;
+        let edge = self.vertices[j].point - start;
+        let length_squared = edge.length_squared();
+        let along = -start.dot(edge);
+        if along <= 0.0 || length_squared == 0.0 {
+            return self.on_vertex(i);
+        }
+        if along >= length_squared {
+            return self.on_vertex(j);
+        }
+        let fraction = along / length_squared;
+        let rejection = start + edge * fraction;
+        // The first rejection is orthogonal to rounding of `start`; the second to rounding of itself.
+        let rejection = rejection - edge * (rejection.dot(edge) / length_squared);
+        Candidate {
+            nearest: Nearest::from_vector(rejection),
+            corners: [i, j, 0],
+            weights: [1.0 - fraction, fraction, 0.0],
+            len: 2,
+        }
+    }
+
+    fn on_triangle(&self, i: usize, j: usize, k: usize) -> Candidate {
+        let [p, q, r] = [i, j, k].map(|corner| self.vertices[corner].point);
+        let (pq, pr) = (q - p, r - p);
+        let cross = pq.cross(pr);
+        let area_squared = cross.length_squared();
+        let longest = pq.length_squared().max(pr.length_squared());
+        let size = p.length_squared().max(longest);
+        if area_squared <= NOISE * NOISE * size * longest {
+            return self.nearest_edge([i, j, k], [true; 3]);
+        }
+        let normal = cross / area_squared.sqrt();
+        let height = normal.dot(p);
+        // Relative to a corner and within the plane the coordinates are as small as the triangle, not as the shapes.
+        let foot = normal * height - p;
+        let weight_q = foot.cross(pr).dot(cross) / area_squared;
+        let weight_r = pq.cross(foot).dot(cross) / area_squared;
+        let weight_p = 1.0 - weight_q - weight_r;
+        if weight_p > 0.0 && weight_q > 0.0 && weight_r > 0.0 {
+            return Candidate {
+                nearest: Nearest {
+                    normal: if height < 0.0 { -normal } else { normal },
+                    distance: height.abs(),
+                },
+                corners: [i, j, k],
+                weights: [weight_p, weight_q, weight_r],
+                len: 3,
+            };
+        }
+        self.nearest_edge(
+            [i, j, k],
+            [weight_p <= 0.0, weight_q <= 0.0, weight_r <= 0.0],
+        )
+    }
+
+    /// Nearest of the triangle's edges that lie opposite a corner marked in `beyond`.
+    fn nearest_edge(&self, [i, j, k]: [usize; 3], beyond: [bool; 3]) -> Candidate {
+        let edges = [(j, k), (k, i), (i, j)];
+        let mut best: Option<Candidate> = None;
+        for ((from, to), open) in edges.into_iter().zip(beyond) {
+            if open {
+                best = Some(nearer(best, self.on_segment(from, to)));
+            }
+        }
+        best.unwrap_or_else(|| self.on_vertex(i))
+    }
+
+    /// Nearest face the origin lies beyond; `None` if it lies strictly inside all four.
+    fn on_tetrahedron(&self) -> Option<Candidate> {
+        let scale = self.scale();
+        let mut best: Option<Candidate> = None;
+        for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 1, 3, 2), (0, 2, 3, 1), (1, 2, 3, 0)] {
+            let [p, q, r, s] = [i, j, k, opposite].map(|corner| self.vertices[corner].point);
+            let cross = (q - p).cross(r - p);
+            let height = cross.dot(p);
+            let side = cross.dot(s - p);
+            let flat = side.abs() <= NOISE * scale * cross.length();
+            // The origin and the fourth vertex on different sides of the face, or nothing certain.
+            if flat || side * height >= 0.0 {
+                best = Some(nearer(best, self.on_triangle(i, j, k)));
+            }
+        }
+        best
+    }
+}
+
+impl Nearest {
+    fn from_vector(vector: DVec3) -> Self {
+        let distance = vector.length();
+        let normal = if distance > 0.0 {
+            vector / distance
+        } else {
+            DVec3::ZERO
+        };
+        Self { normal, distance }
+    }
+}
+
+fn nearer(best: Option<Candidate>, candidate: Candidate) -> Candidate {
+    match best {
+        Some(best) if best.nearest.distance <= candidate.nearest.distance => best,
+        _ => candidate,
+    }
+}

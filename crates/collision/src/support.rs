@@ -1,0 +1,142 @@
+//! Support mappings: the one operation GJK, EPA and the casts ask of a convex shape (Gilbert, Johnson & Keerthi 1988;
+//! van den Bergen 1999, "A Fast and Robust GJK Implementation", §2).
+//!
+//! A shape is a polytope *core* with numbered vertices and a rounding radius around it. The algorithms see cores only and
+//! account for the radii in closed form, so a capsule is a segment and shallow contact of round shapes never needs EPA.
+
+use glam::{DMat3, DVec3};
+use pliant_spatial::Pose;
+
+/// A vertex of a core, found as the furthest along a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupportPoint {
+    /// Number of the vertex: what [`SupportMap::vertex`] takes and warm starts remember.
+    pub index: u32,
+    /// Its position in the shape's frame [m].
+    pub point: DVec3,
+}
+
+/// A convex shape: the hull of finitely many numbered vertices, swollen by [`SupportMap::radius`].
+///
+/// Implementations must be deterministic, allocate nothing, and accept any index: one past the end counts as the last
+/// vertex, so that a cache filled by other shapes costs time and never correctness.
+pub trait SupportMap {
+    /// Vertex of the core furthest along `direction` (shape's frame, any length, non-zero). `start` is the index of a
+    /// vertex to start climbing from: a hint, it never changes how far the answer reaches.
+    fn support(&self, direction: DVec3, start: u32) -> SupportPoint;
+
+    /// Position of a vertex of the core in the shape's frame [m].
+    fn vertex(&self, index: u32) -> DVec3;
+
+    /// Rounding radius around the core [m], ≥ 0.
+    fn radius(&self) -> f64 {
+        0.0
+    }
+
+    /// Some point of the core [m], at a bounded cost: local origin of the algorithms and first guess.
+    fn interior_point(&self) -> DVec3;
+}
+
+impl<S: SupportMap + ?Sized> SupportMap for &S {
+    fn support(&self, direction: DVec3, start: u32) -> SupportPoint {
+        (**self).support(direction, start)
+    }
+
+    fn vertex(&self, index: u32) -> DVec3 {
+        (**self).vertex(index)
+    }
+
+    fn radius(&self) -> f64 {
+        (**self).radius()
+    }
+
+    fn interior_point(&self) -> DVec3 {
+        (**self).interior_point()
+    }
+}
+
+/// A vertex of the Minkowski difference: `point` = `p_b − p_a` for vertex `a` of A and vertex `b` of B.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct DifferencePoint {
+    pub(crate) point: DVec3,
+    pub(crate) a: u32,
+    pub(crate) b: u32,
+}
+
+impl DifferencePoint {
+    pub(crate) const ZERO: Self = Self {
+        point: DVec3::ZERO,
+        a: 0,
+        b: 0,
+    };
+
+    pub(crate) fn same_vertices(&self, other: &Self) -> bool {
+        self.a == other.a && self.b == other.b
+    }
+}
+
+/// The Minkowski difference B − A of two cores in A's frame.
+///
+/// Vertices enter relative to an interior point of their own shape, and the offset between the two is rounded once: the
+/// shape of the difference is then exact to 1e-16 of the shapes' size wherever their frames' origins lie.
+pub(crate) struct MinkowskiDifference<'s, A: ?Sized, B: ?Sized> {
+    pub(crate) a: &'s A,
+    pub(crate) b: &'s B,
+    pub(crate) a_from_b: &'s Pose,
+    a_from_b_rotation: DMat3,
+    b_from_a_rotation: DMat3,
+    origin_in_a: DVec3,
+    origin_in_b: DVec3,
+    offset: DVec3,
+}
+
+impl<'s, A: SupportMap + ?Sized, B: SupportMap + ?Sized> MinkowskiDifference<'s, A, B> {
+    pub(crate) fn new(a: &'s A, b: &'s B, a_from_b: &'s Pose) -> Self {
+        let rotation = DMat3::from_quat(a_from_b.rotation);
+        let origin_in_a = a.interior_point();
+        let origin_in_b = b.interior_point();
+        Self {
+            a,
+            b,
+            a_from_b,
+            a_from_b_rotation: rotation,
+            b_from_a_rotation: rotation.transpose(),
+            origin_in_a,
+            origin_in_b,
+            offset: rotation * origin_in_b + (a_from_b.translation - origin_in_a),
+        }
+    }
+
+    /// Some point of the difference.
+    pub(crate) fn interior_point(&self) -> DVec3 {
+        self.offset
+    }
+
+    /// Vertex of the difference furthest along `direction`, climbing from the vertices of `start`.
+    #[inline]
+    pub(crate) fn support(&self, direction: DVec3, start: &DifferencePoint) -> DifferencePoint {
+        let on_a = self.a.support(-direction, start.a);
+        let on_b = self.b.support(self.b_from_a_rotation * direction, start.b);
+        DifferencePoint {
+            point: self.difference(on_a.point, on_b.point),
+            a: on_a.index,
+            b: on_b.index,
+        }
+    }
+
+    /// The vertex of the difference made of two given vertices, at this placement.
+    #[inline]
+    pub(crate) fn vertex(&self, a: u32, b: u32) -> DifferencePoint {
+        DifferencePoint {
+            point: self.difference(self.a.vertex(a), self.b.vertex(b)),
+            a,
+            b,
+        }
+    }
+
+    #[inline]
+    fn difference(&self, point_in_a: DVec3, point_in_b: DVec3) -> DVec3 {
+        self.a_from_b_rotation * (point_in_b - self.origin_in_b) - (point_in_a - self.origin_in_a)
+            + self.offset
+    }
+}
