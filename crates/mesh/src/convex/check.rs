@@ -1,0 +1,316 @@
+//! The convexity test: local at every edge, then global.
+//!
+//! A fine mesh can be concave by a vanishing amount at every edge and still have a deep dimple, so edges
+//! alone prove nothing. Let Θ be the sum of all concave dihedral angles, D the size and r the distance from
+//! the centroid to the nearest face plane. A plane section through the centroid meets each edge at most once
+//! and turns the wrong way there by at most D/r times the edge's angle, so no vertex is more than Θ·D²/r
+//! above a face plane. When that bound is not small enough (printed decimals), the definition itself is
+//! tested: the highest vertex over every face plane, found in a tree of boxes by branch and bound.
+//! One winding around the centroid excludes branched surfaces that satisfy all planes.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::ConvexityError;
+use crate::triangle_mesh::altitude;
+use crate::{EdgeId, FaceId, HalfEdgeMesh, TriangleMesh, VertexId};
+
+mod tree;
+
+use tree::VertexTree;
+
+/// Volume over area, relative to the size, below which a mesh has no inside: rounding then decides the sign
+/// of the volume.
+const FLAT: f64 = 1e-10;
+
+/// Share of the tolerance that the summed concave angles may use up before the tree is asked: the bound is
+/// an estimate, the tree exact.
+const BOUND_SHARE: f64 = 0.1;
+
+/// Returns the centroid [m] of a mesh that passes.
+pub(super) fn check(
+    topology: &HalfEdgeMesh,
+    mesh: &TriangleMesh,
+    relative_tolerance: f64,
+) -> Result<DVec3, ConvexityError> {
+    check_solid(topology, mesh)?;
+    let size = mesh.bounds().diagonal();
+    let tolerance = relative_tolerance * size;
+    let thick: Vec<bool> = faces_of(topology)
+        .map(|f| altitude(topology.face_corners(f)) > tolerance)
+        .collect();
+    let concave_angle = check_edges(topology, &thick, tolerance)?;
+    let centroid = centroid_of(mesh);
+    check_winding(mesh, centroid)?;
+    let nearest = faces_of(topology)
+        .filter(|f| thick[f.index()])
+        .map(|f| {
+            topology
+                .face_normal(f)
+                .dot(topology.face_corners(f)[0] - centroid)
+        })
+        .fold(f64::INFINITY, f64::min);
+    let proven = nearest > 0.0 && concave_angle * size * size <= BOUND_SHARE * tolerance * nearest;
+    if !proven {
+        check_planes(topology, &thick, tolerance)?;
+    }
+    Ok(centroid)
+}
+
+fn faces_of(topology: &HalfEdgeMesh) -> impl Iterator<Item = FaceId> {
+    (0..).take(topology.face_count()).map(FaceId)
+}
+
+/// Closed, in one piece, with a positive volume.
+fn check_solid(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), ConvexityError> {
+    if let Some(&border) = topology.boundary_loops().first() {
+        let ends = topology.edge_vertices(topology.edge(border));
+        return Err(ConvexityError::Open {
+            loops: topology.boundary_loops().len(),
+            edge: ends.map(|v| topology.position(v)),
+        });
+    }
+    let shells = mesh.shells();
+    if shells != 1 {
+        return Err(ConvexityError::Shells { shells });
+    }
+    let volume = mesh.signed_volume();
+    let size = mesh.bounds().diagonal();
+    let thickness = volume.abs() / mesh.surface_area();
+    if thickness.is_nan() || thickness <= FLAT * size {
+        return Err(ConvexityError::Flat { thickness, size });
+    }
+    if volume < 0.0 {
+        return Err(ConvexityError::InsideOut { volume });
+    }
+    Ok(())
+}
+
+/// Refuses the most concave edge; otherwise the sum of all concave angles [rad]. Infinite where faces too
+/// thin to have a plane hide edges.
+fn check_edges(
+    topology: &HalfEdgeMesh,
+    thick: &[bool],
+    tolerance: f64,
+) -> Result<f64, ConvexityError> {
+    let mut sum = if thick.contains(&false) {
+        f64::INFINITY
+    } else {
+        0.0
+    };
+    let mut worst: Option<(f64, EdgeId, FaceId, VertexId)> = None;
+    for edge in (0..).take(topology.edge_count()).map(EdgeId) {
+        let half = topology.half_edge_of_edge(edge);
+        let base = topology.position(topology.origin(half));
+        for (near, far) in [(half, topology.twin(half)), (topology.twin(half), half)] {
+            let (Some(face), Some(other)) = (topology.face(near), topology.face(far)) else {
+                continue;
+            };
+            if !thick[face.index()] || !thick[other.index()] {
+                continue;
+            }
+            let vertex = topology.origin(topology.next(topology.next(far)));
+            let offset = topology.position(vertex) - base;
+            let height = topology.face_normal(face).dot(offset);
+            if height > 0.0 {
+                let along = topology.position(topology.origin(topology.twin(half))) - base;
+                sum += height * along.length() / offset.cross(along).length();
+            }
+            if height > tolerance && worst.is_none_or(|(h, ..)| height > h) {
+                worst = Some((height, edge, face, vertex));
+            }
+        }
+    }
+    worst.map_or(Ok(sum), |(height, edge, face, vertex)| {
+        Err(ConvexityError::ConcaveEdge {
+            edge,
+            ends: topology.edge_vertices(edge).map(|v| topology.position(v)),
+            face,
+            vertex,
+            height,
+            tolerance,
+        })
+    })
+}
+
+/// Centroid of the enclosed volume [m].
+fn centroid_of(mesh: &TriangleMesh) -> DVec3 {
+    let origin = mesh.bounds().center();
+    let (mut volume, mut moment) = (0.0, DVec3::ZERO);
+    for i in (0..).take(mesh.triangles().len()) {
+        let [a, b, c] = mesh.corners(i).map(|p| p - origin);
+        let six_fold = a.dot(b.cross(c));
+        volume += six_fold;
+        moment += six_fold * (a + b + c);
+    }
+    origin + moment / (4.0 * volume)
+}
+
+/// The solid angles of all triangles seen from `center` add up to one full turn (A. van Oosterom and
+/// J. Strackee, "The solid angle of a plane triangle", IEEE TBME 30(2), 1983, eq. 8).
+fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityError> {
+    let total: f64 = (0..)
+        .take(mesh.triangles().len())
+        .map(|i| {
+            let [a, b, c] = mesh.corners(i).map(|p| p - center);
+            let (la, lb, lc) = (a.length(), b.length(), c.length());
+            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+            2.0 * a.dot(b.cross(c)).atan2(below)
+        })
+        .sum();
+    let turns = total / (4.0 * PI);
+    if (turns - 1.0).abs() < 1e-3 {
+        Ok(())
+    } else {
+        Err(ConvexityError::Winding { turns })
+    }
+}
+
+/// Refuses the highest vertex over any face plane.
+fn check_planes(
+    topology: &HalfEdgeMesh,
+    thick: &[bool],
+    tolerance: f64,
+) -> Result<(), ConvexityError> {
+    let tree = VertexTree::new(topology.positions());
+    let mut worst: Option<(f64, FaceId, u32)> = None;
+    for face in faces_of(topology).filter(|f| thick[f.index()]) {
+        let limit = worst.map_or(tolerance, |(height, ..)| height);
+        let plane = topology.face_normal(face);
+        let base = topology.face_corners(face)[0];
+        if let Some((vertex, height)) = tree.highest_above(plane, plane.dot(base) + limit) {
+            worst = Some((height + limit, face, vertex));
+        }
+    }
+    worst.map_or(Ok(()), |(height, face, vertex)| {
+        Err(ConvexityError::VertexAboveFace {
+            vertex: VertexId(vertex),
+            position: topology.positions()[vertex as usize],
+            face,
+            height,
+            tolerance,
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError, HalfEdgeMesh, TriangleMesh, generate,
+    };
+    use glam::DVec3;
+    use std::f64::consts::TAU;
+
+    /// Two apexes over a ring of `n` vertices that goes `turns` times around.
+    fn bipyramid(n: u32, turns: u32, lower: f64) -> TriangleMesh {
+        let mut positions = vec![DVec3::Z, -lower * DVec3::Z];
+        let mut triangles = Vec::new();
+        for i in 0..n {
+            let angle = TAU * f64::from(i * turns) / f64::from(n);
+            positions.push(DVec3::new(angle.cos(), angle.sin(), 0.0));
+            let (a, b) = (2 + i, 2 + (i + 1) % n);
+            triangles.extend([[a, b, 0], [b, a, 1]]);
+        }
+        TriangleMesh::new(positions, triangles).unwrap()
+    }
+
+    /// A unit sphere of fine faces, pushed in smoothly around one pole: every edge is concave by less than
+    /// 1e-3 of the size while the pole lies 0.17 below the rim.
+    fn dimpled_sphere() -> TriangleMesh {
+        let sphere = generate::latitude_longitude_ellipsoid(DVec3::ONE, 400, 200).unwrap();
+        let push = |p: &DVec3| {
+            let inside = (1.0 - (p.x * p.x + p.y * p.y) / 0.49).max(0.0);
+            let upper = if p.z > 0.0 { 0.4 } else { 0.0 };
+            *p - DVec3::Z * upper * inside.powi(2)
+        };
+        let positions = sphere.positions().iter().map(push).collect();
+        TriangleMesh::new(positions, sphere.triangles().to_vec()).unwrap()
+    }
+
+    #[test]
+    fn accepts_a_bipyramid() {
+        ConvexMesh::from_triangles(&bipyramid(5, 1, 1.0)).unwrap();
+    }
+
+    #[test]
+    fn refuses_a_pentagram_bipyramid_whose_edges_are_all_convex() {
+        let error = ConvexMesh::from_triangles(&bipyramid(5, 2, 1.0)).unwrap_err();
+        let ConvexityError::Winding { turns } = error else {
+            panic!("{error}")
+        };
+        assert!((turns - 2.0).abs() < 1e-9, "{turns}");
+    }
+
+    #[test]
+    fn refuses_a_doubly_wound_square_whose_vertices_are_under_all_planes() {
+        let error = ConvexMesh::from_triangles(&bipyramid(8, 2, 1.0)).unwrap_err();
+        assert!(matches!(error, ConvexityError::Winding { .. }), "{error}");
+    }
+
+    #[test]
+    fn names_a_concave_edge_with_its_measure() {
+        // The lower apex pushed up through the ring's plane to 0.2: the ring edges stay convex, those from
+        // the lower apex become concave.
+        let error = ConvexMesh::from_triangles(&bipyramid(4, 1, -0.2)).unwrap_err();
+        let ConvexityError::ConcaveEdge {
+            ends,
+            height,
+            tolerance,
+            ..
+        } = &error
+        else {
+            panic!("{error}")
+        };
+        assert!(ends.contains(&(0.2 * DVec3::Z)));
+        // Plane through (1,0,0), (0,1,0), (0,0,0.2): x + y + 5z = 1; (-1,0,0) is 2/√27 from it.
+        assert!((height - 2.0 / 27.0_f64.sqrt()).abs() < 1e-12, "{height}");
+        assert!((tolerance - CONVEXITY_TOLERANCE * 2.0_f64.hypot(2.0).hypot(1.0)).abs() < 1e-12);
+        assert!(error.to_string().contains("convex_hull: true"));
+    }
+
+    #[test]
+    fn a_dimple_of_vanishing_edge_angles_is_found_globally() {
+        let error = ConvexMesh::new(HalfEdgeMesh::new(&dimpled_sphere()).unwrap(), 1e-3)
+            .err()
+            .unwrap();
+        let ConvexityError::VertexAboveFace {
+            height, tolerance, ..
+        } = error
+        else {
+            panic!("{error}")
+        };
+        assert!(height > 10.0 * tolerance, "{height} {tolerance}");
+    }
+
+    #[test]
+    fn refuses_open_inverted_flat_and_multiple() {
+        let cube = generate::cuboid(DVec3::ONE).unwrap();
+        let error = ConvexMesh::from_triangles(&cube.reversed()).unwrap_err();
+        assert_eq!(error, ConvexityError::InsideOut { volume: -8.0 });
+        assert!(error.to_string().contains("inside out"));
+
+        let open =
+            TriangleMesh::new(cube.positions().to_vec(), cube.triangles()[1..].to_vec()).unwrap();
+        let error = ConvexMesh::from_triangles(&open).unwrap_err();
+        assert!(
+            matches!(error, ConvexityError::Open { loops: 1, .. }),
+            "{error}"
+        );
+
+        let flat = TriangleMesh::new(
+            vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            vec![[0, 1, 2], [0, 2, 1]],
+        );
+        let error = ConvexMesh::from_triangles(&flat.unwrap()).unwrap_err();
+        assert!(matches!(error, ConvexityError::Flat { .. }), "{error}");
+
+        let mut positions = cube.positions().to_vec();
+        positions.extend(cube.positions().iter().map(|p| p + 5.0));
+        let mut triangles = cube.triangles().to_vec();
+        triangles.extend(cube.triangles().iter().map(|t| t.map(|v| v + 8)));
+        let error = ConvexMesh::from_triangles(&TriangleMesh::new(positions, triangles).unwrap())
+            .unwrap_err();
+        assert_eq!(error, ConvexityError::Shells { shells: 2 });
+    }
+}
