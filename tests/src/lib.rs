@@ -1,1 +1,6 @@
-//! Campaigns, judges and scenes shared by the tests that span crates.
+//! Campaigns, judges and motions shared by the tests that span crates.
+
+pub mod bodies;
+pub mod campaign;
+pub mod hand;
+pub mod judge;

@@ -1,0 +1,323 @@
+//! The free convex cell around the visual tool: one certified separating plane per (obstacle, segment) pair.
+//!
+//! For a unit normal n from obstacle O to segment T at orientation R the plane offset is
+//! b = s_O(n) + s_{−RT}(n) + ε **(contact.1)** with the support function s; every handle position x with n·x ≥ b keeps that pair
+//! apart, whatever supplied n **(contact.2)**.
+
+use glam::{DQuat, DVec3};
+use pliant_collision::{SimplexCache, SupportMap, distance};
+use pliant_mesh::ConvexMesh;
+use pliant_spatial::Pose;
+
+use crate::Obstacle;
+use crate::qp::{ActiveSet, Plane};
+
+/// Gap kept between visual tool and obstacle [m]: large against rounding (1e-16 m), small against anything felt. At 1e-9 detection
+/// answers get refused; 1e-6 and 1e-8 give the same forces.
+pub const SKIN: f64 = 1e-7;
+/// A normal is accepted only when two support calls certify this part of the skin.
+const ACCEPTED_GAP: f64 = SKIN / 4.0;
+/// A pair counts as covered by another's plane down to this much below the leader's gap [m].
+const COVERED: f64 = 1e-11;
+/// Leaders whose gaps differ by less than this [m] are tried in both orders.
+const TIE: f64 = 1e-9;
+
+/// Borrowed geometry of one tick.
+#[derive(Clone, Copy)]
+pub(crate) struct Bodies<'a> {
+    pub(crate) obstacles: &'a [Obstacle],
+    pub(crate) segments: &'a [ConvexMesh],
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    /// Unit, world, obstacle → tool.
+    pub(crate) normal: DVec3,
+    /// Largest n·p over the obstacle, world [m], and where.
+    pub(crate) obstacle_bound: f64,
+    pub(crate) obstacle_vertex: u32,
+    /// Smallest n·(R t) over the segment [m], and where.
+    pub(crate) segment_bound: f64,
+    pub(crate) segment_vertex: u32,
+    /// Middle between the closest points of the last detection, world [m].
+    pub(crate) witness: DVec3,
+    cache: SimplexCache,
+    /// Detection round this pair's normal was last decided in.
+    round: u64,
+}
+
+/// Planes of all pairs, obstacle-major, and the pose they are valid at.
+#[derive(Clone, Debug)]
+pub(crate) struct Cell {
+    pub(crate) pose: Pose,
+    pub(crate) pairs: Vec<Pair>,
+    segment_count: usize,
+    round: u64,
+    queue: Vec<usize>,
+    planes: Vec<Plane>,
+}
+
+impl Cell {
+    pub(crate) fn new(bodies: Bodies<'_>, pose: Pose) -> Self {
+        let blank = Pair {
+            normal: DVec3::Z,
+            obstacle_bound: 0.0,
+            obstacle_vertex: 0,
+            segment_bound: 0.0,
+            segment_vertex: 0,
+            witness: DVec3::ZERO,
+            cache: SimplexCache::default(),
+            round: 0,
+        };
+        let count = bodies.obstacles.len() * bodies.segments.len();
+        Self {
+            pose,
+            pairs: vec![blank; count],
+            segment_count: bodies.segments.len(),
+            round: 0,
+            queue: Vec::with_capacity(count),
+            planes: Vec::with_capacity(count),
+        }
+    }
+
+    pub(crate) fn obstacle_of(&self, pair: usize) -> usize {
+        pair / self.segment_count
+    }
+
+    pub(crate) fn segment_of(&self, pair: usize) -> usize {
+        pair % self.segment_count
+    }
+
+    /// Pairs of one obstacle.
+    pub(crate) fn group(&self, obstacle: usize) -> std::ops::Range<usize> {
+        obstacle * self.segment_count..(obstacle + 1) * self.segment_count
+    }
+
+    /// Certified gap of a pair along its own normal [m].
+    pub(crate) fn gap(&self, pair: usize) -> f64 {
+        let pair = &self.pairs[pair];
+        pair.normal.dot(self.pose.translation) + pair.segment_bound - pair.obstacle_bound
+    }
+
+    /// Gap of `pair` along the normal of `leader`, both of one obstacle [m].
+    pub(crate) fn gap_along(&mut self, bodies: Bodies<'_>, pair: usize, leader: usize) -> f64 {
+        let Pair {
+            normal,
+            obstacle_bound,
+            ..
+        } = self.pairs[leader];
+        let segment = &bodies.segments[self.segment_of(pair)];
+        let start = self.pairs[pair].segment_vertex;
+        let (bound, _) = segment_bound(segment, self.pose.rotation, normal, start);
+        normal.dot(self.pose.translation) + bound - obstacle_bound
+    }
+
+    /// Gives `pair` the unit world normal `n` and its supports.
+    pub(crate) fn set_normal(&mut self, bodies: Bodies<'_>, pair: usize, normal: DVec3) {
+        let obstacle = &bodies.obstacles[self.obstacle_of(pair)];
+        let segment = &bodies.segments[self.segment_of(pair)];
+        let entry = &mut self.pairs[pair];
+        entry.normal = normal;
+        (entry.obstacle_bound, entry.obstacle_vertex) =
+            obstacle_bound(obstacle, normal, entry.obstacle_vertex);
+        (entry.segment_bound, entry.segment_vertex) =
+            segment_bound(segment, self.pose.rotation, normal, entry.segment_vertex);
+    }
+
+    /// Support offsets of the segments for a new orientation, normals kept.
+    pub(crate) fn turn(&mut self, bodies: Bodies<'_>, rotation: DQuat) {
+        self.pose.rotation = rotation;
+        for index in 0..self.pairs.len() {
+            let segment = &bodies.segments[self.segment_of(index)];
+            let pair = &mut self.pairs[index];
+            (pair.segment_bound, pair.segment_vertex) =
+                segment_bound(segment, rotation, pair.normal, pair.segment_vertex);
+        }
+    }
+
+    /// The planes n·x ≥ b of all pairs at the present orientation, in pair order.
+    pub(crate) fn planes(&mut self) -> &[Plane] {
+        self.planes.clear();
+        self.planes.extend(self.pairs.iter().map(|pair| Plane {
+            normal: pair.normal,
+            offset: pair.obstacle_bound - pair.segment_bound + SKIN,
+        }));
+        &self.planes
+    }
+
+    /// Detection for every pair, coverage included.
+    pub(crate) fn refresh_all(&mut self, bodies: Bodies<'_>) {
+        self.round += 1;
+        for obstacle in 0..bodies.obstacles.len() {
+            self.queue.clear();
+            let group = self.group(obstacle);
+            self.queue.extend(group);
+            self.refresh_queue(bodies, obstacle);
+        }
+    }
+
+    /// Detection for the pairs that hold the tool and for those their planes do not cover; returns the largest change of a holding
+    /// normal (chord length between unit vectors).
+    ///
+    /// Only holding planes need a fresh normal: a plane that is slack at the minimum of a convex problem does not influence it.
+    pub(crate) fn refresh_active(&mut self, bodies: Bodies<'_>, active: &ActiveSet) -> f64 {
+        self.round += 1;
+        let mut before = [(0, DVec3::ZERO); 3];
+        let mut held = 0;
+        for (slot, (pair, _)) in before.iter_mut().zip(active.iter()) {
+            *slot = (pair, self.pairs[pair].normal);
+            held += 1;
+        }
+        for &(first, _) in &before[..held] {
+            if self.pairs[first].round == self.round {
+                continue;
+            }
+            let obstacle = self.obstacle_of(first);
+            self.queue.clear();
+            for &(pair, _) in &before[..held] {
+                if self.obstacle_of(pair) == obstacle {
+                    self.queue.push(pair);
+                }
+            }
+            self.refresh_queue(bodies, obstacle);
+        }
+        before[..held]
+            .iter()
+            .map(|&(pair, normal)| (self.pairs[pair].normal - normal).length())
+            .fold(0.0, f64::max)
+    }
+
+    /// Every plane holding the tool was decided in the present round.
+    pub(crate) fn is_fresh(&self, active: &ActiveSet) -> bool {
+        active
+            .iter()
+            .all(|(pair, _)| self.pairs[pair].round == self.round)
+    }
+
+    /// Detects the queued pairs of one obstacle, queues whatever a fresh plane cuts off, then lets covered pairs adopt.
+    fn refresh_queue(&mut self, bodies: Bodies<'_>, obstacle: usize) {
+        for slot in 0..self.queue.len() {
+            self.pairs[self.queue[slot]].round = self.round;
+        }
+        let mut next = 0;
+        while next < self.queue.len() {
+            let pair = self.queue[next];
+            next += 1;
+            self.detect(bodies, pair);
+            let gap = self.gap(pair);
+            for other in self.group(obstacle) {
+                if self.pairs[other].round != self.round
+                    && self.gap_along(bodies, other, pair) < gap - COVERED
+                {
+                    self.pairs[other].round = self.round;
+                    self.queue.push(other);
+                }
+            }
+        }
+        self.adopt_covering_planes(bodies, obstacle);
+    }
+
+    /// Redundant planes: a pair whose gap along a leader's normal is no smaller than the leader's takes that normal and so adds no plane
+    /// of its own **(contact.6)**. Without this a straight tool cut in segments catches on its own seams.
+    fn adopt_covering_planes(&mut self, bodies: Bodies<'_>, obstacle: usize) {
+        let mut queue = std::mem::take(&mut self.queue);
+        queue.sort_unstable_by(|&a, &b| self.gap(a).total_cmp(&self.gap(b)).then(a.cmp(&b)));
+        let mut leaders = 0;
+        for slot in 0..queue.len() {
+            let pair = queue[slot];
+            let covered = queue[..leaders]
+                .iter()
+                .copied()
+                .find(|&leader| self.covers(bodies, leader, pair));
+            if let Some(leader) = covered {
+                self.set_normal(bodies, pair, self.pairs[leader].normal);
+                continue;
+            }
+            // A leader of the same gap that this pair covers was only first by rounding: it gives way.
+            let mut kept = 0;
+            for index in 0..leaders {
+                let leader = queue[index];
+                let tied = self.gap(leader) + TIE >= self.gap(pair);
+                if tied && self.covers(bodies, pair, leader) {
+                    self.set_normal(bodies, leader, self.pairs[pair].normal);
+                } else {
+                    queue.swap(kept, index);
+                    kept += 1;
+                }
+            }
+            queue.swap(kept, slot);
+            leaders = kept + 1;
+        }
+        for other in self.group(obstacle) {
+            if self.pairs[other].round == self.round {
+                continue;
+            }
+            let covering = queue[..leaders]
+                .iter()
+                .copied()
+                .find(|&leader| self.covers(bodies, leader, other));
+            if let Some(leader) = covering {
+                self.set_normal(bodies, other, self.pairs[leader].normal);
+                self.pairs[other].round = self.round;
+            }
+        }
+        self.queue = queue;
+    }
+
+    fn covers(&mut self, bodies: Bodies<'_>, leader: usize, pair: usize) -> bool {
+        self.gap_along(bodies, pair, leader) >= self.gap(leader) - COVERED
+    }
+
+    /// Closest points of one pair; the normal is taken over only if finite and certified by a support gap of at least ε/4
+    /// **(contact.5)**, else the kept one stays.
+    fn detect(&mut self, bodies: Bodies<'_>, pair: usize) {
+        let obstacle = &bodies.obstacles[self.obstacle_of(pair)];
+        let segment = &bodies.segments[self.segment_of(pair)];
+        let object_from_visual = obstacle.world_from_object.inverse() * self.pose;
+        let cache = &mut self.pairs[pair].cache;
+        let Some(closest) = distance(&obstacle.shape, segment, &object_from_visual, cache) else {
+            return;
+        };
+        let normal = obstacle.world_from_object.transform_vector(closest.normal);
+        if !normal.is_finite() {
+            return;
+        }
+        let kept = self.pairs[pair];
+        self.set_normal(bodies, pair, normal.normalize());
+        if self.gap(pair) >= ACCEPTED_GAP {
+            self.pairs[pair].witness = obstacle
+                .world_from_object
+                .transform_point(0.5 * (closest.witness_a + closest.witness_b));
+        } else {
+            let cache = self.pairs[pair].cache;
+            self.pairs[pair] = Pair { cache, ..kept };
+        }
+    }
+
+    /// Smallest certified gap over all pairs [m].
+    pub(crate) fn smallest_gap(&self) -> f64 {
+        (0..self.pairs.len())
+            .map(|pair| self.gap(pair))
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Largest n·p over the obstacle in the world [m] and the vertex that has it.
+pub(crate) fn obstacle_bound(obstacle: &Obstacle, normal: DVec3, start: u32) -> (f64, u32) {
+    let local = obstacle.world_from_object.inverse_transform_vector(normal);
+    let support = obstacle.shape.support(local, start);
+    let shift = normal.dot(obstacle.world_from_object.translation);
+    (local.dot(support.point) + shift, support.index)
+}
+
+/// Smallest n·(R t) over the segment [m] and the vertex that has it.
+pub(crate) fn segment_bound(
+    segment: &ConvexMesh,
+    rotation: DQuat,
+    normal: DVec3,
+    start: u32,
+) -> (f64, u32) {
+    let local = rotation.conjugate() * normal;
+    let support = segment.support(-local, start);
+    (local.dot(support.point), support.index)
+}

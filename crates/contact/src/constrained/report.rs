@@ -1,0 +1,272 @@
+//! What the pressing planes mean to the hand: contact points, features, shares of the force, moment about the handle.
+
+use glam::{DVec2, DVec3};
+use pliant_mesh::{FaceId, Feature, HalfEdgeMesh, VertexId};
+
+use super::MAX_CONTACTS;
+use super::cell::{Bodies, Cell, segment_bound};
+use super::patch::{PatchPlane, SLAB, SlabWalk};
+use super::shading::Shading;
+use crate::Contact;
+use crate::qp::ActiveSet;
+use crate::share::regularised_shares;
+
+/// Report of one tick.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Report {
+    pub(crate) contacts: [Option<Contact>; MAX_CONTACTS],
+    pub(crate) push: DVec3,
+    pub(crate) moment: DVec3,
+}
+
+/// Labels kept from tick to tick, and scratch.
+#[derive(Clone, Debug)]
+pub(crate) struct Reporter {
+    /// Contact Element of each obstacle.
+    elements: Vec<Option<u32>>,
+    shading: Vec<Option<Shading>>,
+    walk: SlabWalk,
+    plane: PatchPlane,
+    touched: Vec<u32>,
+}
+
+impl Reporter {
+    pub(crate) fn new(bodies: Bodies<'_>) -> Self {
+        let obstacle_points = bodies
+            .obstacles
+            .iter()
+            .map(|o| o.shape.positions().len())
+            .max()
+            .unwrap_or(0);
+        let segment_points = bodies.segments.iter().map(|s| s.positions().len());
+        let largest = segment_points.clone().max().unwrap_or(0);
+        Self {
+            elements: vec![None; bodies.obstacles.len()],
+            shading: bodies.obstacles.iter().map(Shading::new).collect(),
+            walk: SlabWalk::new(obstacle_points.max(largest)),
+            plane: PatchPlane::new(obstacle_points, segment_points.sum()),
+            touched: Vec::with_capacity(obstacle_points),
+        }
+    }
+
+    /// Contacts of the pressing planes and the load they put on the haptic handle at `haptic` [m].
+    pub(crate) fn report(
+        &mut self,
+        cell: &mut Cell,
+        bodies: Bodies<'_>,
+        active: &ActiveSet,
+        haptic: DVec3,
+    ) -> Report {
+        let push = cell.pose.translation - haptic;
+        let mut contacts = [None; MAX_CONTACTS];
+        let mut normals = [DVec3::ZERO; MAX_CONTACTS];
+        let mut count = 0;
+        for (pair, _) in active.iter() {
+            let contact = self.contact(cell, bodies, pair);
+            normals[count] = contact.normal;
+            contacts[count] = Some(contact);
+            count += 1;
+        }
+        let shares = regularised_shares(&normals[..count], push);
+        for (contact, share) in contacts.iter_mut().flatten().zip(shares) {
+            contact.share = share;
+        }
+        let rendered = self.shaded(bodies, &contacts, push);
+        let moment = moment(&contacts, rendered, haptic);
+        contacts[..count].sort_unstable_by(|a, b| {
+            let share = |c: &Option<Contact>| c.map_or(0.0, |c| c.share);
+            share(b).total_cmp(&share(a))
+        });
+        self.forget_released(&contacts);
+        Report {
+            contacts,
+            push: rendered,
+            moment,
+        }
+    }
+
+    fn forget_released(&mut self, contacts: &[Option<Contact>; MAX_CONTACTS]) {
+        for (object, element) in self.elements.iter_mut().enumerate() {
+            if !contacts
+                .iter()
+                .flatten()
+                .any(|c| c.object as usize == object)
+            {
+                *element = None;
+            }
+        }
+    }
+
+    /// Patch centroid, Contact Element and feature of one pressing pair.
+    fn contact(&mut self, cell: &mut Cell, bodies: Bodies<'_>, pair: usize) -> Contact {
+        let entry = cell.pairs[pair];
+        let object = cell.obstacle_of(pair);
+        let obstacle = &bodies.obstacles[object];
+        let normal = entry.normal;
+        let top = obstacle.shape.positions()[entry.obstacle_vertex as usize];
+        let origin = obstacle.world_from_object.transform_point(top);
+        let (u, v) = normal.any_orthonormal_pair();
+        let flat = |p: DVec3| DVec2::new(u.dot(p - origin), v.dot(p - origin));
+
+        let element = self.gather_tool(cell, bodies, pair, flat);
+        let local_normal = obstacle.world_from_object.inverse_transform_vector(normal);
+        let (touched, outline) = (&mut self.touched, &mut self.plane.obstacle);
+        touched.clear();
+        outline.clear();
+        let shape = &obstacle.shape;
+        self.walk
+            .visit(shape, local_normal, entry.obstacle_vertex, |vertex| {
+                let p = shape.positions()[vertex as usize];
+                touched.push(vertex);
+                outline.push(flat(obstacle.world_from_object.transform_point(p)));
+            });
+        let centre = self.plane.centroid().unwrap_or_else(|| flat(entry.witness));
+        let point = origin + u * centre.x + v * centre.y;
+        let local = obstacle.world_from_object.inverse_transform_point(point);
+        let feature = self.feature(shape.topology(), local_normal, local);
+        Contact {
+            object: index_u32(object),
+            segment: element,
+            point,
+            normal,
+            feature,
+            share: 0.0,
+        }
+    }
+
+    /// Support polygon of all segments that touch along this plane, and the Contact Element: last tick's as long as it touches.
+    fn gather_tool(
+        &mut self,
+        cell: &mut Cell,
+        bodies: Bodies<'_>,
+        pair: usize,
+        flat: impl Fn(DVec3) -> DVec2,
+    ) -> u32 {
+        let object = cell.obstacle_of(pair);
+        let entry = cell.pairs[pair];
+        let pose = cell.pose;
+        let reach = cell.gap(pair) + SLAB;
+        let kept = self.elements[object];
+        let mut element = index_u32(cell.segment_of(pair));
+        self.plane.tool.clear();
+        for other in cell.group(object) {
+            let segment = &bodies.segments[cell.segment_of(other)];
+            let start = cell.pairs[other].segment_vertex;
+            let (bound, vertex) = segment_bound(segment, pose.rotation, entry.normal, start);
+            if entry.normal.dot(pose.translation) + bound - entry.obstacle_bound > reach {
+                continue;
+            }
+            if kept == Some(index_u32(cell.segment_of(other))) {
+                element = index_u32(cell.segment_of(other));
+            }
+            let outline = &mut self.plane.tool;
+            let down = -pose.inverse_transform_vector(entry.normal);
+            self.walk.visit(segment, down, vertex, |vertex| {
+                let p = segment.positions()[vertex as usize];
+                outline.push(flat(pose.transform_point(p)));
+            });
+        }
+        self.elements[object] = Some(element);
+        element
+    }
+
+    /// The face, edge or vertex of the obstacle under `point`: what lies in the supporting plane, as the last walk left it.
+    fn feature(&self, mesh: &HalfEdgeMesh, normal: DVec3, point: DVec3) -> Feature {
+        let mut best_face: Option<(f64, FaceId)> = None;
+        let mut best_edge = None;
+        for &vertex in &self.touched {
+            for half_edge in mesh.outgoing(VertexId(vertex)) {
+                let edge = mesh.edge(half_edge);
+                let ends = mesh.edge_vertices(edge);
+                if !ends.iter().all(|v| self.walk.visited(v.0)) {
+                    continue;
+                }
+                let distance = segment_distance(ends.map(|v| mesh.position(v)), point);
+                if best_edge.is_none_or(|(least, _)| distance < least) {
+                    best_edge = Some((distance, edge));
+                }
+                let Some(face) = mesh.face(half_edge) else {
+                    continue;
+                };
+                let corners = mesh.face_vertices(face);
+                if corners.iter().all(|v| self.walk.visited(v.0)) {
+                    let depth = depth_inside(corners.map(|v| mesh.position(v)), normal, point);
+                    if best_face.is_none_or(|(most, _)| depth > most) {
+                        best_face = Some((depth, face));
+                    }
+                }
+            }
+        }
+        match (best_face, best_edge) {
+            (Some((_, face)), _) => Feature::Face(face),
+            (None, Some((_, edge))) => Feature::Edge(edge),
+            (None, None) => Feature::Vertex(VertexId(self.touched.first().copied().unwrap_or(0))),
+        }
+    }
+
+    /// `push` with its direction taken from interpolated normals where obstacles are shaded; its length is kept.
+    fn shaded(
+        &self,
+        bodies: Bodies<'_>,
+        contacts: &[Option<Contact>; MAX_CONTACTS],
+        push: DVec3,
+    ) -> DVec3 {
+        let mut turned = push;
+        for contact in contacts.iter().flatten() {
+            let object = contact.object as usize;
+            let Some(shading) = &self.shading[object] else {
+                continue;
+            };
+            let obstacle = &bodies.obstacles[object];
+            let pose = &obstacle.world_from_object;
+            let normal = shading.normal(
+                obstacle.shape.topology(),
+                contact.feature,
+                pose.inverse_transform_point(contact.point),
+                pose.inverse_transform_vector(contact.normal),
+            );
+            turned += contact.share * (pose.transform_vector(normal) - contact.normal);
+        }
+        turned.normalize_or_zero() * push.length()
+    }
+}
+
+/// Moment of `push` about `haptic` [m²]: each contact carries its share at its patch, the remainder acts at the shares' centre.
+fn moment(contacts: &[Option<Contact>; MAX_CONTACTS], push: DVec3, haptic: DVec3) -> DVec3 {
+    let mut moment = DVec3::ZERO;
+    let mut carried = DVec3::ZERO;
+    let mut centre = DVec3::ZERO;
+    let mut total = 0.0;
+    for contact in contacts.iter().flatten() {
+        let part = contact.normal * contact.share;
+        moment += (contact.point - haptic).cross(part);
+        carried += part;
+        centre += contact.point * contact.share;
+        total += contact.share;
+    }
+    if total > 0.0 {
+        moment += (centre / total - haptic).cross(push - carried);
+    }
+    moment
+}
+
+fn segment_distance([a, b]: [DVec3; 2], point: DVec3) -> f64 {
+    let along = b - a;
+    let t = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    (point - a - along * t).length()
+}
+
+/// Distance of `point` to the nearest side of a triangle seen along `normal` [m]; negative outside.
+fn depth_inside(corners: [DVec3; 3], normal: DVec3, point: DVec3) -> f64 {
+    let mut least = f64::INFINITY;
+    for side in 0..3 {
+        let (a, b) = (corners[side], corners[(side + 1) % 3]);
+        let inward = normal.cross(b - a).normalize_or_zero();
+        least = least.min(inward.dot(point - a));
+    }
+    least
+}
+
+fn index_u32(index: usize) -> u32 {
+    u32::try_from(index).expect("objects and segments are counted in u32")
+}

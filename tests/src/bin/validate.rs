@@ -1,0 +1,86 @@
+//! `validate contact [--full]`: the random campaigns of the separating-plane method, whole or as the subset that CI runs.
+#![allow(clippy::print_stdout, reason = "a command that prints its report")]
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{Parser, ValueEnum};
+use pliant_tests::campaign::{Run, Verdict, campaign, full_runs, short_runs};
+
+#[derive(Parser)]
+struct Arguments {
+    /// What to validate.
+    subject: Subject,
+    /// Every run instead of the fixed-seed subset.
+    #[arg(long)]
+    full: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Subject {
+    Contact,
+}
+
+fn main() -> ExitCode {
+    let Arguments { subject, full } = Arguments::parse();
+    let Subject::Contact = subject;
+    let runs = if full { full_runs() } else { short_runs() };
+    println!(
+        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8} {:>8} {:>8} {:>8} {:>7} {:>6}",
+        "setting",
+        "tool",
+        "n",
+        "seed",
+        "touch",
+        "held",
+        "cap",
+        "changes",
+        "inside",
+        "cert.",
+        "gap",
+        "resid.",
+        "force N",
+        "s"
+    );
+    let mut failed = 0;
+    let mut ticks = 0;
+    for run in &runs {
+        let start = Instant::now();
+        let verdict = campaign(run);
+        ticks += verdict.ticks;
+        print_row(run, &verdict, start.elapsed().as_secs_f64());
+        for failure in verdict.failures(run) {
+            println!("    FAILED: {failure}");
+            failed += 1;
+        }
+    }
+    println!(
+        "{} runs, {ticks} ticks, {failed} demands failed",
+        runs.len()
+    );
+    if failed == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn print_row(run: &Run, v: &Verdict, seconds: f64) {
+    println!(
+        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>7.1} {:>6.1}",
+        format!("{:?}", run.setting),
+        format!("{:?}", run.tool),
+        run.segments,
+        run.seed,
+        v.contact_ticks,
+        v.held_ticks,
+        v.capped_ticks,
+        v.feature_changes,
+        v.penetration,
+        v.smallest_certificate,
+        v.largest_contact_gap,
+        v.residual,
+        v.max_force,
+        seconds
+    );
+}
