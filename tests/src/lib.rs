@@ -4,3 +4,4 @@ pub mod bodies;
 pub mod campaign;
 pub mod hand;
 pub mod judge;
+pub mod motion;

@@ -16,9 +16,9 @@ mod report;
 mod shading;
 mod start;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use pliant_mesh::ConvexMesh;
-use pliant_spatial::Pose;
+use pliant_spatial::{Pose, rotation_vector};
 
 pub use cell::SKIN;
 use cell::{Bodies, Cell};
@@ -36,6 +36,11 @@ const STILL: f64 = 1e-9;
 const STEADY_NORMAL: f64 = 1e-4;
 /// Attempts to reach the haptic orientation, each with a halved turn after a failure.
 const TURN_ATTEMPTS: u32 = 8;
+
+/// A turn by Δθ changes plane offsets by at most Δθ times the tool's reach; a wedge between planes amplifies that. Beyond this factor (a wedge of
+/// 29°) the turn counts as impossible: in a slot narrower than the turned tool the planes are almost opposite, and the point
+/// where they meet lies anywhere along the slot.
+const MAX_AMPLIFICATION: f64 = 4.0;
 
 /// Planes that can press at once.
 pub const MAX_CONTACTS: usize = 3;
@@ -74,6 +79,8 @@ impl ConstrainedOutcome {
 pub struct ConstrainedTracker {
     cell: Cell,
     reporter: Reporter,
+    /// Farthest point of the tool from the handle origin [m].
+    reach: f64,
     separated: bool,
     started_inside: bool,
 }
@@ -98,6 +105,11 @@ impl ConstrainedTracker {
         Self {
             cell,
             reporter: Reporter::new(bodies),
+            reach: segments
+                .iter()
+                .flat_map(|segment| segment.positions())
+                .map(|p| p.length())
+                .fold(0.0, f64::max),
             separated: start != start::Start::Inside,
             started_inside: start != start::Start::Free,
         }
@@ -177,8 +189,8 @@ impl ConstrainedTracker {
         }
     }
 
-    /// Takes over the haptic orientation with the kept normals **(contact.4)**; when no position is free at it, half the turn is tried, with
-    /// detection after each success. Returns whether the tool is held short of it, and the planes that hold the position.
+    /// Takes over the haptic orientation with the kept normals **(contact.4)**; when no position near is free at it, half the turn is tried,
+    /// with detection after each success. Returns whether the tool is held short of it, and the planes that hold the position.
     fn turn(
         &mut self,
         bodies: Bodies<'_>,
@@ -194,18 +206,13 @@ impl ConstrainedTracker {
             } else {
                 world_from_haptic.rotation
             };
-            self.cell.turn(bodies, wanted);
-            if let Some((position, active)) = nearest_point(self.cell.planes(), target) {
-                self.cell.pose.translation = position;
+            if let Some(active) = self.try_orientation(bodies, wanted, target) {
                 if part >= 1.0 {
                     return (false, active);
                 }
                 self.cell.refresh_all(bodies);
                 part = (2.0 * part).min(1.0);
-                continue;
-            }
-            self.cell.turn(bodies, free);
-            if refreshed {
+            } else if refreshed {
                 part *= 0.5;
             } else {
                 // Normals of planes that were slack may be stale: they forbid more than the obstacles do.
@@ -215,6 +222,38 @@ impl ConstrainedTracker {
         }
         let active = self.project(target).unwrap_or_default();
         (true, active)
+    }
+
+    /// Turns to `wanted` and moves to the nearest free position, or changes nothing when there is none or it lies out of proportion to
+    /// the turn.
+    fn try_orientation(
+        &mut self,
+        bodies: Bodies<'_>,
+        wanted: DQuat,
+        target: DVec3,
+    ) -> Option<ActiveSet> {
+        let free = self.cell.pose.rotation;
+        self.cell.turn(bodies, wanted);
+        let turned = nearest_point(self.cell.planes(), target);
+        if let Some((position, active)) = turned {
+            let allowance = MAX_AMPLIFICATION * self.reach * rotation_angle(free, wanted);
+            // Without a turn the projection moves no farther than its target, so this holds in most ticks.
+            if (position - self.cell.pose.translation).length() <= allowance {
+                self.cell.pose.translation = position;
+                return Some(active);
+            }
+            self.cell.turn(bodies, free);
+            let unturned = nearest_point(self.cell.planes(), target)
+                .map_or(self.cell.pose.translation, |(position, _)| position);
+            if (position - unturned).length() <= allowance + STILL {
+                self.cell.turn(bodies, wanted);
+                self.cell.pose.translation = position;
+                return Some(active);
+            }
+        } else {
+            self.cell.turn(bodies, free);
+        }
+        None
     }
 
     /// Moves to the point of the cell nearest to `target`; `None`, and no move, when rounding leaves the cell empty.
@@ -260,4 +299,9 @@ impl ConstrainedTracker {
             capped: true,
         }
     }
+}
+
+/// Angle between two orientations [rad].
+fn rotation_angle(a: DQuat, b: DQuat) -> f64 {
+    rotation_vector(b * a.conjugate()).length()
 }
