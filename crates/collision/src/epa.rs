@@ -139,7 +139,7 @@ where
     let plane = Plane {
         normal: -outward,
         separation: -bound,
-        simplex: polytope.nearest_boundary_point(bound + NOISE * scale + tolerance),
+        simplex: polytope.feature_at(outward * bound, bound + NOISE * scale + tolerance),
     };
     if full {
         Outcome::Full(plane)

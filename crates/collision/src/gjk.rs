@@ -90,10 +90,17 @@ where
 {
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     let plane = match search(&difference, cache, Goal::Distance) {
-        Exit::Apart(plane) => plane,
-        Exit::Meeting(simplex) => epa::shallowest(&difference, &simplex),
+        Exit::Apart(plane) => {
+            cache.remember(&plane.simplex);
+            plane
+        }
+        Exit::Meeting(simplex) => {
+            // The tetrahedron around the origin, not the face found: a sliver from that face to the far side would cost
+            // EPA more rounds than it saves.
+            cache.remember(&simplex);
+            epa::shallowest(&difference, &simplex)
+        }
     };
-    cache.remember(&plane.simplex);
     witnesses(&difference, &plane)
 }
 

@@ -6,6 +6,11 @@
 //!
 //! All tolerances are relative to the sizes of the shapes, so micrometres and kilometres behave alike.
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
+mod bvh;
 mod cast;
 mod climb;
 mod epa;
@@ -14,6 +19,7 @@ mod shapes;
 mod simplex;
 mod support;
 
+pub use bvh::{SurfacePoint, TriangleBvh};
 pub use cast::{CastHit, RayHit, cast_ray, cast_shape};
 pub use gjk::{ClosestPoints, SimplexCache, closest_points, distance, overlap};
 pub use shapes::{Cuboid, Point, PointSet, Rounded, Segment, Triangle};

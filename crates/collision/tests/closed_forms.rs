@@ -228,3 +228,16 @@ fn separation_is_the_support_gap_at_haptic_distances() {
         );
     }
 }
+
+#[test]
+fn witnesses_lie_on_the_side_that_leaves_when_both_sides_are_as_near() {
+    let stick = Cuboid {
+        half: DVec3::Z * 0.9,
+    };
+    let around = Cuboid {
+        half: DVec3::new(0.07, 0.9, 0.8),
+    };
+    let pose = Pose::from_translation(DVec3::new(0.0, -0.5, 1.0));
+    let found = solve(&stick, &around, &pose);
+    assert!((found.separation + 0.07).abs() < 1e-15, "{found:?}");
+}

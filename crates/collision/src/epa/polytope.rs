@@ -135,9 +135,9 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         self.faces[usize::from(face)].status = Status::Closed;
     }
 
-    /// Of the faces not higher than `limit`, the feature nearest to the origin: where the way out meets the surface, also
-    /// when several coplanar triangles are equally near.
-    pub(crate) fn nearest_boundary_point(&self, limit: f64) -> Simplex {
+    /// Of the faces not higher than `limit`, the feature whose point nearest to the origin is nearest to `exit`: where the
+    /// way out meets the surface, also when coplanar triangles or opposite sides are equally near.
+    pub(crate) fn feature_at(&self, exit: DVec3, limit: f64) -> Simplex {
         let mut best = (f64::INFINITY, Simplex::EMPTY);
         for face in &self.faces[..usize::from(self.face_end)] {
             if face.status == Status::Free || face.height > limit {
@@ -147,10 +147,11 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
                 .corners
                 .map(|corner| self.vertices[usize::from(corner)]);
             let mut simplex = Simplex::triangle(corners, [0.0; 3]);
-            if let Some(nearest) = simplex.reduce()
-                && nearest.distance < best.0
-            {
-                best = (nearest.distance, simplex);
+            if let Some(nearest) = simplex.reduce() {
+                let miss = (nearest.normal * nearest.distance).distance(exit);
+                if miss < best.0 {
+                    best = (miss, simplex);
+                }
             }
         }
         if best.1.vertices().is_empty() {

@@ -56,21 +56,18 @@ struct Search<'s, 'd, A: ?Sized, B: ?Sized> {
 }
 
 impl<A: SupportMap + ?Sized, B: SupportMap + ?Sized> Search<'_, '_, A, B> {
-    /// Largest coordinate of the difference, roughly.
+    /// Largest coordinate of the difference, roughly. Four vertices around the origin tell it; fewer may all lie near the
+    /// origin.
     fn extent(&self) -> f64 {
-        let mut extent = self.simplex.scale();
-        for axis in [
-            DVec3::X,
-            DVec3::Y,
-            DVec3::Z,
-            DVec3::NEG_X,
-            DVec3::NEG_Y,
-            DVec3::NEG_Z,
-        ] {
-            let reach = self.difference.support(axis, &self.origin);
-            extent = extent.max(reach.point.length());
+        let extent = self.simplex.scale();
+        if self.simplex.vertices().len() == 4 {
+            return extent;
         }
-        extent
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        axes.into_iter()
+            .flat_map(|axis| [axis, -axis])
+            .map(|axis| self.difference.support(axis, &self.origin).point.length())
+            .fold(extent, f64::max)
     }
 
     /// The vertex that `measure` (of its position relative to the first one) puts furthest: one of the simplex where they
