@@ -268,9 +268,24 @@ fn warm_starts_change_nothing_but_the_time() {
         let warm = closest_points(&ellipsoid, &tool, &pose, &mut cache);
         let cold = closest_points(&ellipsoid, &tool, &pose, &mut SimplexCache::default());
         assert!(
-            (warm.separation - cold.separation).abs() < 1e-15,
+            (warm.separation - cold.separation).abs() < 1e-14,
             "{step} {warm:?} {cold:?}"
         );
+        // Hovering at 1e-7 m, the certified separation is the distance, and the normal is exact enough to show it.
+        let shift = warm.normal * (1e-7 - warm.separation);
+        let near = Pose::new(pose.rotation, pose.translation + shift);
+        let hover = closest_points(&ellipsoid, &tool, &near, &mut cache);
+        let top = ellipsoid.support(hover.normal, 0).point.dot(hover.normal);
+        let downward = near.inverse_transform_vector(-hover.normal);
+        let bottom = near.transform_point(tool.support(downward, 0).point);
+        let gap = bottom.dot(hover.normal) - top;
+        assert!((hover.separation - 1e-7).abs() < 1e-14, "{step} {hover:?}");
+        assert!(
+            (gap - hover.separation).abs() < 1e-15,
+            "{step} {gap:e} {hover:?}"
+        );
+        let span = (hover.witness_b - hover.witness_a).length();
+        assert!((span - hover.separation).abs() < 1e-14, "{step} {hover:?}");
         if warm.separation > 0.0 {
             apart += 1;
         } else {
