@@ -1,0 +1,153 @@
+//! `bench tick [--json FILE]`: time of one tick, both methods, one and ten segments, 800 and 12,672 faces.
+#![allow(clippy::print_stdout, reason = "a command that prints its report")]
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::{Parser, ValueEnum};
+use pliant_contact::PaperParameters;
+use pliant_sim::{
+    Method, Object, State, TickInput, VirtualCoupling, World, WorldDescription, tick,
+};
+use pliant_spatial::Pose;
+use pliant_tests::bodies::{ToolKind, latitude_longitude};
+use pliant_tests::campaign::PERIOD;
+use pliant_tests::motion::{shaft_slide, tip_slide};
+use serde::Serialize;
+
+#[derive(Parser)]
+struct Arguments {
+    /// What to measure.
+    subject: Subject,
+    /// Where the figures go.
+    #[arg(long, default_value = "target/bench/tick.json")]
+    json: PathBuf,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Subject {
+    Tick,
+}
+
+/// Ticks of one pass over a motion.
+const TICKS: u32 = 4000;
+/// A tick's time is its smallest over so many passes, which removes what the machine did meanwhile.
+const PASSES: usize = 7;
+
+/// One row of the table; times in nanoseconds.
+#[derive(Serialize)]
+struct Row {
+    method: &'static str,
+    motion: &'static str,
+    faces: usize,
+    segments: u32,
+    contact_ticks: u32,
+    p50_ns: u64,
+    p99_ns: u64,
+    p999_ns: u64,
+    max_ns: u64,
+}
+
+fn main() -> Result<()> {
+    let Arguments { subject, json } = Arguments::parse();
+    let Subject::Tick = subject;
+    println!(
+        "{:>12} {:>12} {:>7} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9}",
+        "method",
+        "motion",
+        "faces",
+        "segments",
+        "contact",
+        "p50 µs",
+        "p99 µs",
+        "p99.9 µs",
+        "max µs"
+    );
+    let mut rows = Vec::new();
+    for (name, method) in [
+        ("constrained", Method::Constrained),
+        ("paper", Method::Paper(PaperParameters::default())),
+    ] {
+        for (sectors, bands) in [(20, 21), (96, 67)] {
+            for segments in [1, 10] {
+                let tip = world(sectors, bands, ToolKind::Cone, segments, method);
+                rows.push(row(name, "tip slide", &tip, tip_slide(2e-3)));
+                let shaft = world(sectors, bands, ToolKind::Rod, segments, method);
+                rows.push(row(name, "shaft turning", &shaft, shaft_slide(2e-3, 1.5)));
+            }
+        }
+    }
+    if let Some(folder) = json.parent() {
+        std::fs::create_dir_all(folder)
+            .with_context(|| format!("creating {}", folder.display()))?;
+    }
+    std::fs::write(&json, serde_json::to_string_pretty(&rows)?)
+        .with_context(|| format!("writing {}", json.display()))?;
+    println!("written to {}", json.display());
+    Ok(())
+}
+
+fn world(sectors: u32, bands: u32, tool: ToolKind, segments: u32, method: Method) -> World {
+    World::new(WorldDescription {
+        tool: tool.tool(segments),
+        objects: vec![Object {
+            name: "ellipsoid".to_owned(),
+            shape: latitude_longitude(sectors, bands),
+            world_from_object: Pose::IDENTITY,
+            shading_threshold: None,
+        }],
+        coupling: VirtualCoupling::default(),
+        method,
+    })
+    .expect("benchmark worlds are valid")
+}
+
+fn row(
+    method: &'static str,
+    motion: &'static str,
+    world: &World,
+    path: impl Fn(f64) -> Pose,
+) -> Row {
+    let mut best = vec![u64::MAX; TICKS as usize];
+    let mut contact_ticks = 0;
+    for _ in 0..PASSES {
+        let mut state = State::new(world, path(0.0));
+        contact_ticks = 0;
+        for (index, best) in (1..=TICKS).zip(&mut best) {
+            let input = TickInput {
+                world_from_haptic: path(f64::from(index) * PERIOD),
+            };
+            let start = Instant::now();
+            let output = tick(world, &mut state, &input, PERIOD);
+            let elapsed = start.elapsed().as_nanos();
+            contact_ticks += u32::from(output.contacts > 0);
+            *best = (*best).min(u64::try_from(elapsed).unwrap_or(u64::MAX));
+        }
+    }
+    best.sort_unstable();
+    let at = |part: f64| best[((best.len() - 1) as f64 * part).round() as usize];
+    let row = Row {
+        method,
+        motion,
+        faces: world.obstacles()[0].shape.topology().face_count(),
+        segments: u32::try_from(world.tool().segments.len()).unwrap_or(u32::MAX),
+        contact_ticks,
+        p50_ns: at(0.5),
+        p99_ns: at(0.99),
+        p999_ns: at(0.999),
+        max_ns: at(1.0),
+    };
+    let micro = |ns: u64| ns as f64 / 1000.0;
+    println!(
+        "{method:>12} {motion:>12} {:>7} {:>9} {:>8} {:>9.2} {:>9.2} {:>9.2} {:>9.2}",
+        row.faces,
+        row.segments,
+        row.contact_ticks,
+        micro(row.p50_ns),
+        micro(row.p99_ns),
+        micro(row.p999_ns),
+        micro(row.max_ns)
+    );
+    row
+}
