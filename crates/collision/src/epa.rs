@@ -22,7 +22,7 @@ use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 mod polytope;
 mod seed;
 
-use polytope::Polytope;
+use polytope::{Growth, Polytope};
 use seed::Seed;
 
 /// How one run on buffers of a given size ended.
@@ -127,13 +127,13 @@ where
             polytope.close(face);
             continue;
         }
-        match polytope.grow(face, support, tolerance) {
-            polytope::Growth::Grown => {}
-            polytope::Growth::NoRoom => {
+        match grow(&mut polytope, face, support, tolerance) {
+            Growth::Grown => {}
+            Growth::Torn => polytope.close(face),
+            Growth::NoRoom => {
                 full = true;
                 break;
             }
-            polytope::Growth::Torn => break,
         }
     }
     let plane = Plane {
@@ -146,4 +146,21 @@ where
     } else {
         Outcome::Found(plane)
     }
+}
+
+/// Adds a vertex; where rounding tears the horizon among almost coplanar faces, once more with all of them kept in doubt
+/// and once with all of them removed.
+fn grow<const VERTICES: usize, const FACES: usize>(
+    polytope: &mut Polytope<VERTICES, FACES>,
+    face: u16,
+    vertex: DifferencePoint,
+    tolerance: f64,
+) -> Growth {
+    for factor in [1.0, 64.0, 0.0] {
+        match polytope.grow(face, vertex, factor * tolerance) {
+            Growth::Torn => {}
+            growth => return growth,
+        }
+    }
+    Growth::Torn
 }

@@ -12,6 +12,7 @@ use pliant_spatial::Pose;
 use proptest::prelude::{
     ProptestConfig, Strategy, TestCaseError, prop_assert, prop_oneof, proptest,
 };
+use proptest::test_runner::RngSeed;
 
 #[derive(Clone, Debug)]
 enum Shape {
@@ -78,6 +79,10 @@ fn shape() -> impl Strategy<Value = Shape> {
         segment().prop_map(Shape::Segment),
         (vector(), vector(), vector()).prop_map(|(p, q, r)| Shape::Triangle(Triangle([p, q, r]))),
         vector().prop_map(|v| Shape::Cuboid(Cuboid { half: v.abs() })),
+        // Needles and plates, 1000:1.
+        (vector(), 1e-3..1.0, 1e-3..1.0).prop_map(|(v, y, z)| Shape::Cuboid(Cuboid {
+            half: v.abs() * DVec3::new(1.0, y * y, z * z)
+        })),
         proptest::collection::vec(vector(), 4..40).prop_map(Shape::Points),
         (segment(), 0.01..0.5).prop_map(|(core, radius)| Shape::Capsule(Rounded { core, radius })),
     ]
@@ -92,6 +97,11 @@ fn pose() -> impl Strategy<Value = Pose> {
             offset * reach
         )),
         vector().prop_map(move |offset| Pose::from_translation(halves(offset * 2.0))),
+        // Parallel but for a tilt down to rounding.
+        (vector(), vector(), -16..-3).prop_map(move |(axis, offset, exponent)| Pose::new(
+            DQuat::from_scaled_axis(axis * 10_f64.powi(exponent)),
+            halves(offset * 2.0)
+        )),
     ]
 }
 
@@ -198,7 +208,7 @@ fn check(a: &Shape, b: &Shape, pose: &Pose, scale: f64) -> Result<ClosestPoints,
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, rng_seed: RngSeed::Fixed(20_031), ..ProptestConfig::default() })]
 
     #[test]
     fn separation_normal_and_witnesses_belong_together(
@@ -211,7 +221,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, rng_seed: RngSeed::Fixed(20_031), ..ProptestConfig::default() })]
 
     #[test]
     fn depth_is_that_of_the_best_separating_axis(
