@@ -72,8 +72,9 @@ impl HalfEdgeMesh {
 
     /// V − E + F: two per closed shell without handles.
     pub fn euler_number(&self) -> i64 {
-        let signed = |n: usize| i64::try_from(n).expect("element counts fit in 32 bits");
-        signed(self.vertex_count()) - signed(self.edge_count()) + signed(self.face_count())
+        let [v, e, f] =
+            [self.vertex_count(), self.edge_count(), self.face_count()].map(usize::cast_signed);
+        (v - e + f) as i64
     }
 
     /// No edge lacks a triangle on either side.

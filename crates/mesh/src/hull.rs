@@ -139,18 +139,22 @@ impl<'a> Hull<'a> {
         if !this.alive {
             return;
         }
-        let apex = this
+        let base = self.points[this.corners[0] as usize];
+        let heights: Vec<(u32, f64)> = this
             .outside
             .iter()
-            .map(|&p| (self.height(face, p), p))
-            .fold(None, |best: Option<(f64, u32)>, x| {
-                if best.is_some_and(|b| b.0 >= x.0) {
-                    best
-                } else {
-                    Some(x)
-                }
-            });
-        let Some((_, apex)) = apex else { return };
+            .map(|&p| (p, self.height(face, p)))
+            .collect();
+        let top = heights
+            .iter()
+            .fold(f64::NEG_INFINITY, |top, h| top.max(h.1));
+        let ties = heights
+            .iter()
+            .filter(|h| h.1 >= top - self.skin)
+            .map(|h| h.0);
+        let Some(apex) = corner_of(self.points, ties, base) else {
+            return;
+        };
         let (seen, horizon) = self.horizon(face, apex);
         let mut orphans = Vec::new();
         for &f in &seen {
@@ -270,41 +274,58 @@ fn first_simplex(points: &[DVec3], size: f64) -> Result<[u32; 4], HullError> {
         thickness,
         size,
     };
-    let farthest = |measure: &dyn Fn(DVec3) -> f64| {
-        let mut best = (f64::NEG_INFINITY, 0_usize);
-        for (i, &p) in points.iter().enumerate() {
-            let value = measure(p);
-            if value > best.0 {
-                best = (value, i);
-            }
-        }
-        (best.1, best.0)
+    let middle = Aabb::from_points(points).center();
+    let farthest = |measure: &dyn Fn(DVec3) -> f64, base: DVec3| {
+        let top = points
+            .iter()
+            .fold(f64::NEG_INFINITY, |top, &p| top.max(measure(p)));
+        let ties = (0..)
+            .zip(points)
+            .filter(|&(_, &p)| measure(p) >= top - SKIN * size);
+        (
+            corner_of(points, ties.map(|(i, _)| i), base).unwrap_or(0),
+            top,
+        )
     };
-    let extremes = [DVec3::X, DVec3::Y, DVec3::Z]
-        .map(|axis| [farthest(&|p| p.dot(axis)).0, farthest(&|p| -p.dot(axis)).0]);
-    let [a, b] = *extremes
+    let at = |i: u32| points[i as usize];
+    let extremes = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
+        let ends = [
+            farthest(&|p| p.dot(axis), middle).0,
+            farthest(&|p| -p.dot(axis), middle).0,
+        ];
+        (ends, at(ends[0]).distance(at(ends[1])))
+    });
+    let ([a, b], _) = *extremes
         .iter()
-        .max_by(|p, q| {
-            points[p[0]]
-                .distance(points[p[1]])
-                .total_cmp(&points[q[0]].distance(points[q[1]]))
-        })
+        .max_by(|p, q| p.1.total_cmp(&q.1))
         .expect("three axes");
     // 1e-90 m: products of three such lengths would underflow.
     if size <= 1e-90 {
         return Err(degenerate("at one place", size));
     }
-    let (pa, along) = (points[a], (points[b] - points[a]).normalize_or_zero());
-    let (c, width) = farthest(&|p| (p - pa).cross(along).length());
+    let along = (at(b) - at(a)).normalize_or_zero();
+    let (c, width) = farthest(&|p| (p - at(a)).cross(along).length(), at(a));
     if width <= FLAT * size {
         return Err(degenerate("on a line", width));
     }
-    let normal = (points[b] - pa).cross(points[c] - pa).normalize_or_zero();
-    let (d, thickness) = farthest(&|p| (p - pa).dot(normal).abs());
+    let normal = (at(b) - at(a)).cross(at(c) - at(a)).normalize_or_zero();
+    let (d, thickness) = farthest(&|p| (p - at(a)).dot(normal).abs(), at(a));
     if thickness <= FLAT * size {
         return Err(degenerate("in a plane", thickness));
     }
-    let below = (points[d] - pa).dot(normal) < 0.0;
-    let base = if below { [a, b, c, d] } else { [b, a, c, d] };
-    Ok(base.map(|i| u32::try_from(i).expect("a checked mesh has fewer points than u32::MAX")))
+    let below = (at(d) - at(a)).dot(normal) < 0.0;
+    Ok(if below { [a, b, c, d] } else { [b, a, c, d] })
+}
+
+/// Of points that tie, the farthest from `base`, so that a corner of a flat side is taken and not a point
+/// amid its edge; the first of equals.
+fn corner_of(points: &[DVec3], ties: impl Iterator<Item = u32>, base: DVec3) -> Option<u32> {
+    let mut best: Option<(u32, f64)> = None;
+    for i in ties {
+        let distance = points[i as usize].distance_squared(base);
+        if best.is_none_or(|(_, farthest)| distance > farthest) {
+            best = Some((i, distance));
+        }
+    }
+    best.map(|(i, _)| i)
 }

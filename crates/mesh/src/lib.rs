@@ -11,6 +11,8 @@ pub mod generate;
 mod half_edge;
 mod hull;
 mod id;
+pub mod load;
+mod report;
 mod triangle_mesh;
 
 pub use aabb::Aabb;
@@ -18,4 +20,9 @@ pub use convex::{CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError};
 pub use half_edge::{HalfEdgeMesh, TopologyError};
 pub use hull::{HullError, SKIN, convex_hull};
 pub use id::{EdgeId, FaceId, Feature, HalfEdgeId, VertexId};
+pub use report::{MeshReport, Winding, inspect};
 pub use triangle_mesh::{DEGENERATE_ALTITUDE, MeshError, TriangleMesh, WeldReport};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

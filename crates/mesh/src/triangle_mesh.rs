@@ -87,8 +87,7 @@ impl TriangleMesh {
                 return Err(MeshError::TooLarge { what, count });
             }
         }
-        // `NaN < x` is false, so this also refuses NaN.
-        let bad = |p: &DVec3| !(p.abs().max_element() < MAX_COORDINATE) || p.is_nan();
+        let bad = |p: &DVec3| p.is_nan() || p.abs().max_element() >= MAX_COORDINATE;
         if let Some(vertex) = positions.iter().position(bad) {
             let position = positions[vertex];
             return Err(MeshError::BadPosition { vertex, position });

@@ -1,0 +1,301 @@
+//! STL, binary and text (3D Systems, "stereolithography interface specification", 1988).
+//!
+//! Read here rather than by `stl_io` 0.11, which keeps text files at `f32`, has no line numbers, and takes a
+//! binary file whose header starts with "solid " for text. Stored normals are ignored: the winding decides.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::{
+    LoadError, LoadReport, Loaded, MAX_LOADED, at_line, coordinate, shortened, text_lines,
+};
+use crate::TriangleMesh;
+
+const HEADER: usize = 84;
+const RECORD: usize = 50;
+
+/// Corners merged where their coordinates are equal: STL stores each triangle's corners anew.
+#[derive(Default)]
+struct Builder {
+    positions: Vec<DVec3>,
+    triangles: Vec<[u32; 3]>,
+    index: HashMap<[u64; 3], u32>,
+    report: LoadReport,
+}
+
+/// Reads an STL file in the file's unit; all solids as one mesh, equal corners merged.
+///
+/// # Errors
+/// A truncated file, a malformed or infinite coordinate, with the line or byte; no triangles.
+pub fn stl(bytes: &[u8]) -> Result<Loaded, LoadError> {
+    let mut builder = Builder::default();
+    // The size decides first: many binary files start with "solid" as well.
+    let stated = stated_triangles(bytes);
+    let is_text = starts_with_word(bytes, b"solid") || starts_with_word(bytes, b"facet");
+    let exact = stated.is_some_and(|n| {
+        n.checked_mul(RECORD).and_then(|s| s.checked_add(HEADER)) == Some(bytes.len())
+    });
+    match stated {
+        Some(count) if exact || !is_text || bytes.contains(&0) => {
+            read_binary(bytes, count, &mut builder)?;
+        }
+        _ if is_text => read_text(bytes, &mut builder)?,
+        _ => {
+            return Err(LoadError::Binary {
+                offset: bytes.len(),
+                message: format!(
+                    "{} bytes are neither a text STL (`solid …`) nor a binary one (84 bytes and more)",
+                    bytes.len()
+                ),
+            });
+        }
+    }
+    if builder.triangles.is_empty() {
+        let found = "the STL file has no facets".to_owned();
+        return Err(LoadError::NoTriangles { found });
+    }
+    Ok(Loaded {
+        mesh: TriangleMesh::new(builder.positions, builder.triangles)?,
+        report: builder.report,
+    })
+}
+
+fn starts_with_word(bytes: &[u8], word: &[u8]) -> bool {
+    let bytes = bytes
+        .strip_prefix(b"\xEF\xBB\xBF")
+        .unwrap_or(bytes)
+        .trim_ascii_start();
+    bytes
+        .get(..word.len())
+        .is_some_and(|w| w.eq_ignore_ascii_case(word))
+}
+
+fn stated_triangles(bytes: &[u8]) -> Option<usize> {
+    let count = bytes.get(HEADER - 4..HEADER)?.first_chunk()?;
+    usize::try_from(u32::from_le_bytes(*count)).ok()
+}
+
+fn read_binary(bytes: &[u8], count: usize, builder: &mut Builder) -> Result<(), LoadError> {
+    let body = &bytes[HEADER..];
+    let available = body.len() / RECORD;
+    if count > available {
+        return Err(LoadError::Binary {
+            offset: bytes.len(),
+            message: format!(
+                "the header promises {count} triangles, the file holds {available}: it is truncated or no STL"
+            ),
+        });
+    }
+    if body.len() > count * RECORD {
+        builder.report.note(
+            "runs of bytes after the last triangle ignored",
+            format!("byte {}", HEADER + count * RECORD),
+        );
+    }
+    for (i, record) in body.chunks_exact(RECORD).take(count).enumerate() {
+        let mut corners = [DVec3::ZERO; 3];
+        // 12 bytes of normal, then nine coordinates, then two bytes of attributes.
+        for (k, number) in record[12..48].as_chunks::<4>().0.iter().enumerate() {
+            let value = f64::from(f32::from_le_bytes(*number));
+            if !value.is_finite() {
+                return Err(LoadError::Binary {
+                    offset: HEADER + i * RECORD + 12 + 4 * k,
+                    message: format!("triangle {i} has coordinate {value}, which is not finite"),
+                });
+            }
+            corners[k / 3][k % 3] = value;
+        }
+        builder.push(corners)?;
+    }
+    Ok(())
+}
+
+fn read_text(bytes: &[u8], builder: &mut Builder) -> Result<(), LoadError> {
+    let mut corners: Vec<DVec3> = Vec::new();
+    let mut open_since = None;
+    let mut last = 0;
+    for (line, text) in text_lines(bytes)? {
+        last = line;
+        let lower = text.to_ascii_lowercase();
+        let mut tokens = lower.split_whitespace();
+        match tokens.next() {
+            Some("facet") if open_since.is_none() => {
+                open_since = Some(line);
+                corners.clear();
+            }
+            Some("vertex") if open_since.is_some() => {
+                let mut p = DVec3::ZERO;
+                for axis in 0..3 {
+                    let token = tokens
+                        .next()
+                        .ok_or_else(|| at_line(line, "expected `vertex x y z`"))?;
+                    p[axis] = coordinate(token, line)?;
+                }
+                corners.push(p);
+            }
+            Some("endfacet") if open_since.is_some() => {
+                let [a, b, c] = corners[..] else {
+                    return Err(at_line(
+                        line,
+                        format!("a facet with {} vertices: expected three", corners.len()),
+                    ));
+                };
+                builder.push([a, b, c])?;
+                open_since = None;
+            }
+            None | Some("outer" | "endloop") => {}
+            Some("solid" | "endsolid") if open_since.is_none() => {}
+            Some(word) => {
+                return Err(at_line(
+                    line,
+                    format!("unexpected `{}` in a text STL", shortened(word)),
+                ));
+            }
+        }
+    }
+    match open_since {
+        Some(line) => Err(at_line(
+            last,
+            format!("the file ends within the facet of line {line}: it is truncated"),
+        )),
+        None => Ok(()),
+    }
+}
+
+impl Builder {
+    fn push(&mut self, corners: [DVec3; 3]) -> Result<(), LoadError> {
+        if self.triangles.len() >= MAX_LOADED {
+            let (what, limit) = ("triangles", MAX_LOADED);
+            return Err(LoadError::TooLarge { what, limit });
+        }
+        let triangle = corners.map(|p| {
+            let next =
+                u32::try_from(self.positions.len()).expect("three per triangle of at most 2^24");
+            // Adding zero makes -0 equal to 0.
+            let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
+            let index = *self.index.entry(key).or_insert(next);
+            if index == next {
+                self.positions.push(p);
+            }
+            index
+        });
+        self.triangles.push(triangle);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::stl;
+    use crate::{TriangleMesh, generate};
+    use glam::DVec3;
+    use std::fmt::Write;
+    use std::io::Cursor;
+
+    fn ball() -> TriangleMesh {
+        generate::latitude_longitude_ellipsoid(DVec3::new(1.0, 0.8, 0.6), 12, 8).unwrap()
+    }
+
+    /// Written by an independent library.
+    fn binary(mesh: &TriangleMesh) -> Vec<u8> {
+        let triangles: Vec<stl_io::Triangle> = (0..)
+            .take(mesh.triangles().len())
+            .map(|i| stl_io::Triangle {
+                normal: stl_io::Normal::new([0.0; 3]),
+                vertices: mesh
+                    .corners(i)
+                    .map(|p| stl_io::Vertex::new(p.as_vec3().to_array())),
+            })
+            .collect();
+        let mut bytes = Vec::new();
+        stl_io::write_stl(&mut bytes, triangles.iter()).unwrap();
+        bytes
+    }
+
+    fn text(mesh: &TriangleMesh) -> String {
+        let mut out = String::from("SOLID\n");
+        for i in (0..).take(mesh.triangles().len()) {
+            out += "facet normal 0 0 0\n outer loop\n";
+            for p in mesh.corners(i) {
+                writeln!(out, "  vertex {:e} {:e} {:e}\r", p.x, p.y, p.z).unwrap();
+            }
+            out += " endloop\nendfacet\n";
+        }
+        out + "endsolid\n"
+    }
+
+    #[test]
+    fn reads_what_another_library_writes() {
+        let mut bytes = binary(&ball());
+        let judge = stl_io::read_stl(&mut Cursor::new(&bytes)).unwrap();
+        for header in [&b"\0\0\0\0\0\0"[..], b"solid "] {
+            bytes[..header.len()].copy_from_slice(header);
+            let mesh = stl(&bytes).unwrap().mesh;
+            assert_eq!(
+                mesh.positions().len(),
+                ball().positions().len(),
+                "corners are merged"
+            );
+            assert_eq!(mesh.triangles().len(), judge.faces.len());
+            for (ours, theirs) in mesh.triangles().iter().zip(&judge.faces) {
+                for (&v, &w) in ours.iter().zip(&theirs.vertices) {
+                    let w: [f32; 3] = judge.vertices[w].into();
+                    assert_eq!(
+                        mesh.positions()[v as usize].as_vec3(),
+                        glam::Vec3::from_array(w)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn text_keeps_full_precision() {
+        let mesh = stl(text(&ball()).as_bytes()).unwrap().mesh;
+        assert_eq!(
+            mesh.signed_volume().to_bits(),
+            ball().signed_volume().to_bits()
+        );
+    }
+
+    #[test]
+    fn faults_are_named() {
+        let good = text(&ball());
+        let line = |bad: &str| stl(bad.as_bytes()).unwrap_err().to_string();
+        assert!(line(&good[..good.len() / 2]).contains("line"));
+        assert!(
+            line(&good.replacen("vertex", "vertex nan", 1))
+                .contains("line 4: coordinate `nan` is not finite")
+        );
+        assert!(
+            line(&good.replacen("  vertex", "  vortex", 1)).contains("line 4: unexpected `vortex`")
+        );
+        assert_eq!(
+            line("solid a\nendsolid a"),
+            "no triangles: the STL file has no facets"
+        );
+        assert!(line("").contains("neither"));
+
+        let bytes = binary(&ball());
+        let error = stl(&bytes[..bytes.len() - 1]).unwrap_err().to_string();
+        assert!(
+            error.contains("promises 168 triangles, the file holds 167"),
+            "{error}"
+        );
+        let mut huge = bytes.clone();
+        huge[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert!(stl(&huge).is_err());
+        let mut infinite = bytes.clone();
+        infinite[96..100].copy_from_slice(&f32::INFINITY.to_le_bytes());
+        assert!(
+            stl(&infinite)
+                .unwrap_err()
+                .to_string()
+                .contains("byte 96: triangle 0")
+        );
+        let mut longer = bytes;
+        longer.extend([1, 2, 3]);
+        assert_eq!(stl(&longer).unwrap().report.notes.len(), 1);
+    }
+}
