@@ -1,5 +1,12 @@
 //! Loaders on real files, on every broken file of the data folder, and on random damage.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::too_many_lines,
+    reason = "tests stop at the first surprise, say what they skip, and list their cases in one table"
+)]
+
 use std::path::{Path, PathBuf};
 
 use base64::Engine;

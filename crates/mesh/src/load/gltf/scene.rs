@@ -34,10 +34,7 @@ pub(super) fn placements(
     let mut visits = 0;
     while let Some((index, world_from_parent)) = stack.pop() {
         visits += 1;
-        if visits > MAX_VISITS {
-            let (what, limit) = ("instances of nodes", MAX_VISITS);
-            return Err(LoadError::TooLarge { what, limit });
-        }
+        check_visits(visits)?;
         let node = &root.nodes[index];
         let world_from_mesh = world_from_parent * local_transform(node, index, report)?;
         if let Some(mesh) = node.mesh {
@@ -84,6 +81,16 @@ pub(super) fn placements(
         placements = meshes_alone(root, report);
     }
     Ok(placements)
+}
+
+fn check_visits(visits: usize) -> Result<(), LoadError> {
+    if visits <= MAX_VISITS {
+        return Ok(());
+    }
+    Err(LoadError::TooLarge {
+        what: "instances of nodes",
+        limit: MAX_VISITS,
+    })
 }
 
 /// Every mesh at the origin, for files that have no nodes.
