@@ -194,11 +194,13 @@ impl PaperTracker {
     fn retreat(&mut self, scene: Scene<'_>, touch: &Touch) -> Option<DVec3> {
         let pose = self.world_from_visual;
         let mut deepest: Option<Nearest> = None;
+        let mut intersecting = 0;
         for pair in scene.pairs() {
             let limit = -INTERSECTION_TOLERANCE;
             let Some(nearest) = self.visual_pairs.nearest_below(scene, pair, &pose, limit) else {
                 continue;
             };
+            intersecting += 1;
             if deepest.is_none_or(|d| nearest.separation < d.separation) {
                 deepest = Some(nearest);
             }
@@ -212,13 +214,22 @@ impl PaperTracker {
             deepest.normal
         };
         // Moving by t along `way_out` separates a pair with normal n once t (n · way_out) reaches its depth.
-        let mut distance = 0.0_f64;
-        for pair in scene.pairs() {
-            let nearest = self.visual_pairs.nearest_below(scene, pair, &pose, 0.0);
-            let Some(nearest) = nearest else { continue };
+        let needed = |nearest: &Nearest| {
             let cosine = nearest.normal.dot(way_out);
-            if cosine >= LEAST_COSINE {
-                distance = distance.max(-nearest.separation / cosine);
+            let reachable = cosine >= LEAST_COSINE;
+            if reachable {
+                -nearest.separation / cosine
+            } else {
+                0.0
+            }
+        };
+        let mut distance = needed(&deepest);
+        if intersecting > 1 {
+            for pair in scene.pairs() {
+                let nearest = self.visual_pairs.nearest_below(scene, pair, &pose, 0.0);
+                distance = nearest
+                    .as_ref()
+                    .map_or(distance, |n| distance.max(needed(n)));
             }
         }
         Some((distance + BACK_OFF_CLEARANCE) * way_out)

@@ -1,7 +1,7 @@
 //! Random motion: the state stays finite and repeats.
 
 use glam::{DQuat, DVec3};
-use pliant_contact::{PaperEvent, PaperParameters};
+use pliant_contact::{Obstacle, PaperEvent, PaperParameters};
 use pliant_mesh::ConvexMesh;
 use pliant_spatial::Pose;
 
@@ -31,11 +31,10 @@ struct Run {
 }
 
 /// 10⁴ ticks of a hand that is pulled towards the object's middle and pushed about, at most 1 m/s and 10 rad/s.
-fn run(shape: ConvexMesh, segments: u32, parameters: &PaperParameters, seed: u64) -> Run {
+fn run(objects: Vec<Obstacle>, segments: u32, parameters: &PaperParameters, seed: u64) -> Run {
     let mut dice = Dice(seed);
     let mut haptic = Pose::from_translation(mm(-50.0, 0.0, 60.0));
-    let object = obstacle(shape, Pose::IDENTITY);
-    let mut bench = Bench::with(object, rod(3.0 * MM, segments), haptic, parameters);
+    let mut bench = Bench::with(objects, rod(3.0 * MM, segments), haptic, parameters);
     let (mut velocity, mut spin) = (DVec3::ZERO, DVec3::ZERO);
     let mut result = Run {
         poses: Vec::new(),
@@ -76,8 +75,10 @@ fn run(shape: ConvexMesh, segments: u32, parameters: &PaperParameters, seed: u64
 
 /// One run, judged, and one to compare with it.
 fn assert_finite_and_repeatable(shape: &ConvexMesh, segments: u32) {
+    let object = obstacle(shape.clone(), Pose::IDENTITY);
+    let objects = vec![object];
     let every_tick = PaperParameters::default();
-    let first = run(shape.clone(), segments, &every_tick, 0x2003_0001);
+    let first = run(objects.clone(), segments, &every_tick, 0x2003_0001);
     assert!(
         first.contact_ticks > 3000,
         "{} contact ticks",
@@ -90,7 +91,7 @@ fn assert_finite_and_repeatable(shape: &ConvexMesh, segments: u32) {
         "{segments} segments: {:e} m",
         first.deepest
     );
-    let again = run(shape.clone(), segments, &every_tick, 0x2003_0001);
+    let again = run(objects, segments, &every_tick, 0x2003_0001);
     assert!(first.poses == again.poses);
 }
 
@@ -112,7 +113,8 @@ fn random_motion_with_detection_every_other_tick_stays_finite() {
         detection_interval: 2,
         ..PaperParameters::default()
     };
-    let result = run(ellipsoid(), 10, &every_other, 0x2003_0002);
+    let object = vec![obstacle(ellipsoid(), Pose::IDENTITY)];
+    let result = run(object, 10, &every_other, 0x2003_0002);
     assert!(
         result.contact_ticks > 3000,
         "{} contact ticks",
@@ -124,4 +126,26 @@ fn random_motion_with_detection_every_other_tick_stays_finite() {
         "{:e} m",
         result.deepest
     );
+}
+
+#[test]
+fn between_two_objects_back_off_has_no_rule() {
+    // A slot of 8 mm between two boxes, and a rod of 6 mm that turns in it.
+    let slot = [-54.0, 54.0]
+        .map(|y| obstacle(cuboid(), Pose::from_translation(mm(0.0, y, 0.0))))
+        .to_vec();
+    let every_tick = PaperParameters::default();
+    let result = run(slot.clone(), 1, &every_tick, 0x2003_0003);
+    assert!(
+        result.contact_ticks > 1000,
+        "{} contact ticks",
+        result.contact_ticks
+    );
+    // Pushed out of one box into the other and back, it stays in both.
+    assert!(
+        (1e-3..6e-3).contains(&result.deepest),
+        "{:e} m",
+        result.deepest
+    );
+    assert!(result.poses == run(slot, 1, &every_tick, 0x2003_0003).poses);
 }

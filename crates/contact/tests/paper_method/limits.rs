@@ -151,3 +151,30 @@ fn drifts_with_a_shaft_over_an_edge() {
     let flat = force_over_the_edge(0.0);
     assert!((flat - 1.0).abs() < 1e-6, "{flat} N where 1 N is right");
 }
+
+#[test]
+fn flat_on_a_box_back_off_ends_a_walk_off_the_footprint() {
+    // A rod flat on the box, 1 mm deep, moved about so that up to 40 mm of it stand out over a side. Where the ray misses, the
+    // point walks on to the side of the box while the rod still lies on the top: the rod dips in and is set down again.
+    let at = |t: f64, z: f64| {
+        let (x, y) = (-20.0 + 40.0 * (0.9 * t).sin(), 30.0 * (1.3 * t).sin());
+        Pose::from_translation(mm(x, y, z))
+    };
+    let object = obstacle(cuboid(), Pose::IDENTITY);
+    let mut bench = Bench::new(object, rod(3.0 * MM, 1), at(0.0, 28.5));
+    bench.lead(&at(0.0, 27.0), 30);
+    let (mut back_offs, mut strongest) = (0, 0.0_f64);
+    for tick in 0..=10_000_u32 {
+        let outcome = bench.advance(&at(f64::from(tick) * 1e-3, 27.0));
+        strongest = strongest.max(STIFFNESS * outcome.contact.unwrap().share);
+        let events = outcome.events.as_slice().iter();
+        back_offs += events
+            .filter(|e| matches!(e, PaperEvent::BackedOff { .. }))
+            .count();
+    }
+    assert!(back_offs > 0);
+    assert!(
+        (strongest - 1.0).abs() < 1e-4,
+        "{strongest} N where 1 N is right"
+    );
+}

@@ -146,16 +146,16 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(crate) fn new(obstacle: Obstacle, segments: Vec<ConvexMesh>, start: Pose) -> Self {
-        Self::with(obstacle, segments, start, &PaperParameters::default())
+        let parameters = PaperParameters::default();
+        Self::with(vec![obstacle], segments, start, &parameters)
     }
 
     pub(crate) fn with(
-        obstacle: Obstacle,
+        obstacles: Vec<Obstacle>,
         segments: Vec<ConvexMesh>,
         start: Pose,
         parameters: &PaperParameters,
     ) -> Self {
-        let obstacles = vec![obstacle];
         let tracker = PaperTracker::new(&obstacles, &segments, parameters, start);
         Self {
             obstacles,

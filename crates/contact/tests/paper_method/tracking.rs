@@ -151,7 +151,7 @@ fn detection_every_other_tick_finds_and_loses_contact_a_tick_later() {
         ..PaperParameters::default()
     };
     let at = |z: f64| placed(pointing_down(), TIP, mm(0.0, 0.0, z));
-    let object = obstacle(cuboid(), Pose::IDENTITY);
+    let object = vec![obstacle(cuboid(), Pose::IDENTITY)];
     let mut bench = Bench::with(object, needle(), at(26.0), &parameters);
     let touching: Vec<bool> = [26.0, 24.5, 24.5, 24.4, 26.0, 26.0, 24.5]
         .map(|z| bench.advance(&at(z)).contact.is_some())
