@@ -154,7 +154,7 @@ fn drifts_with_a_shaft_over_an_edge() {
 
 #[test]
 fn flat_on_a_box_back_off_ends_a_walk_off_the_footprint() {
-    // A rod flat on the box, 1 mm deep, moved about so that up to 40 mm of it stand out over a side. Where the ray misses, the
+    // A rod flat on the box, 1 mm deep, moved about so that up to 70 mm of it stand out over a side. Where the ray misses, the
     // point walks on to the side of the box while the rod still lies on the top: the rod dips in and is set down again.
     let at = |t: f64, z: f64| {
         let (x, y) = (-20.0 + 40.0 * (0.9 * t).sin(), 30.0 * (1.3 * t).sin());
