@@ -189,7 +189,7 @@ impl ConstrainedTracker {
         }
     }
 
-    /// Takes over the haptic orientation with the kept normals **(contact.4)**; when no position near is free at it, half the turn is tried,
+    /// Takes over the haptic orientation with the kept normals (contact.4); when no position near is free at it, half the turn is tried,
     /// with detection after each success. Returns whether the tool is held short of it, and the planes that hold the position.
     fn turn(
         &mut self,
@@ -225,7 +225,7 @@ impl ConstrainedTracker {
     }
 
     /// Turns to `wanted` and moves to the nearest free position, or changes nothing when there is none or it lies out of proportion to
-    /// the turn.
+    /// the turn (contact.13).
     fn try_orientation(
         &mut self,
         bodies: Bodies<'_>,
@@ -263,7 +263,7 @@ impl ConstrainedTracker {
         Some(active)
     }
 
-    /// Detection at the planes that hold, then projection, until nothing moves **(contact.7)**. Every iterate is free, so the cap is graceful.
+    /// Detection at the planes that hold, then projection, until nothing moves (contact.7). Every iterate is free, so the cap is graceful.
     fn settle(&mut self, bodies: Bodies<'_>, target: DVec3, active: ActiveSet) -> Search {
         let mut active = active;
         for round in 1..=MAX_ROUNDS {

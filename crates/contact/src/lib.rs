@@ -13,3 +13,7 @@ mod share;
 pub use constrained::{ConstrainedOutcome, ConstrainedTracker, MAX_CONTACTS, SKIN};
 pub use obstacle::{Contact, Obstacle};
 pub use paper::{PaperEvent, PaperEvents, PaperOutcome, PaperParameters, PaperTracker};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

@@ -97,7 +97,7 @@ impl ActiveSet {
 
 /// The point of the cell nearest to `target` and the planes that hold it; `None` when the cell is empty.
 ///
-/// The multipliers t satisfy x − h = Σ tᵢ nᵢ **(contact.3)**. Allocates nothing.
+/// The multipliers t satisfy x − h = Σ tᵢ nᵢ (contact.3). Allocates nothing.
 pub(crate) fn nearest_point(planes: &[Plane], target: DVec3) -> Option<(DVec3, ActiveSet)> {
     let mut x = target;
     let mut active = ActiveSet::default();

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 /// this bounds every share by |push|/(2√ρ) = 5 |push| and changes well separated ones by about 1 %, which the caller's remainder term carries.
 const REGULARISATION: f64 = 1e-2;
 
-/// Shares t ≥ 0 [m] that minimise |Σ tᵢ nᵢ − push|² + ρ Σ tᵢ² **(contact.12)**, for up to three unit normals.
+/// Shares t ≥ 0 [m] that minimise |Σ tᵢ nᵢ − push|² + ρ Σ tᵢ² (contact.12), for up to three unit normals.
 pub(crate) fn regularised_shares(normals: &[DVec3], push: DVec3) -> [f64; 3] {
     let mut shares = [0.0; 3];
     if let [normal] = normals {

@@ -11,3 +11,7 @@ mod world;
 pub use judge::visual_penetration;
 pub use tick::{State, TickInput, TickOutput, tick};
 pub use world::{Method, Object, Tool, VirtualCoupling, World, WorldDescription, WorldError};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

@@ -138,7 +138,7 @@ pub fn tick(world: &World, state: &mut State, input: &TickInput, dt: f64) -> Tic
 }
 
 /// Where the coupling pulls the visual tool: the haptic position, delayed by the damper. The position that minimises
-/// ½k|x − h|² + (b/2Δt)|(x − x₀) − (h − h₀)|²: the damper acts on visual relative to haptic motion.
+/// ½k|x − h|² + (b/2Δt)|(x − x₀) − (h − h₀)|² (contact.14): the damper acts on visual relative to haptic motion.
 fn coupled_target(world: &World, visual: Pose, last: Pose, haptic: Pose, dt: f64) -> DVec3 {
     let coupling = world.coupling();
     if coupling.linear_damping <= 0.0 {

@@ -1,8 +1,8 @@
 //! The free convex cell around the visual tool: one certified separating plane per (obstacle, segment) pair.
 //!
 //! For a unit normal n from obstacle O to segment T at orientation R the plane offset is
-//! b = s_O(n) + s_{−RT}(n) + ε **(contact.1)** with the support function s; every handle position x with n·x ≥ b keeps that pair
-//! apart, whatever supplied n **(contact.2)**.
+//! b = s_O(n) + s_{−RT}(n) + ε (contact.1) with the support function s; every handle position x with n·x ≥ b keeps that pair
+//! apart, whatever supplied n (contact.2).
 
 use glam::{DQuat, DVec3};
 use pliant_collision::{SimplexCache, SupportMap, distance};
@@ -19,6 +19,8 @@ pub const SKIN: f64 = 1e-7;
 const ACCEPTED_GAP: f64 = SKIN / 4.0;
 /// A pair counts as covered by another's plane down to this much below the leader's gap [m].
 const COVERED: f64 = 1e-11;
+/// Cosine of half the largest turn (0.05 rad, five times what a fast hand turns in a tick) along which normals may follow the tool.
+const SMALL_TURN_COSINE: f64 = 0.999_687_5;
 /// Leaders whose gaps differ by less than this [m] are tried in both orders.
 const TIE: f64 = 1e-9;
 
@@ -42,6 +44,8 @@ pub(crate) struct Pair {
     /// Middle between the closest points of the last detection, world [m].
     pub(crate) witness: DVec3,
     cache: SimplexCache,
+    /// The pair this normal was adopted from, itself if detected: the one to detect next.
+    leader: usize,
     /// Detection round this pair's normal was last decided in.
     round: u64,
 }
@@ -67,12 +71,13 @@ impl Cell {
             segment_vertex: 0,
             witness: DVec3::ZERO,
             cache: SimplexCache::default(),
+            leader: 0,
             round: 0,
         };
         let count = bodies.obstacles.len() * bodies.segments.len();
         Self {
             pose,
-            pairs: vec![blank; count],
+            pairs: (0..count).map(|leader| Pair { leader, ..blank }).collect(),
             segment_count: bodies.segments.len(),
             round: 0,
             queue: Vec::with_capacity(count),
@@ -124,14 +129,58 @@ impl Cell {
             segment_bound(segment, self.pose.rotation, normal, entry.segment_vertex);
     }
 
-    /// Support offsets of the segments for a new orientation, normals kept.
+    /// Support offsets of the segments for a new orientation. Normals are kept; where a kept one would push the tool, the normal turned
+    /// with the tool is taken if it leaves the larger gap: under a face of the tool the contact normal is fixed to the tool.
+    /// Segments that share a normal decide together, as one segment would.
     pub(crate) fn turn(&mut self, bodies: Bodies<'_>, rotation: DQuat) {
+        let turn = rotation * self.pose.rotation.conjugate();
+        let is_small = turn.w.abs() > SMALL_TURN_COSINE;
         self.pose.rotation = rotation;
         for index in 0..self.pairs.len() {
             let segment = &bodies.segments[self.segment_of(index)];
             let pair = &mut self.pairs[index];
             (pair.segment_bound, pair.segment_vertex) =
                 segment_bound(segment, rotation, pair.normal, pair.segment_vertex);
+        }
+        if is_small {
+            for index in 0..self.pairs.len() {
+                self.turn_normal(bodies, index, turn);
+            }
+        }
+    }
+
+    /// Turns the normal of `first` and of all later pairs of its obstacle that share it, if that widens their smallest gap.
+    fn turn_normal(&mut self, bodies: Bodies<'_>, first: usize, turn: DQuat) {
+        let normal = self.pairs[first].normal;
+        let group = self.group(self.obstacle_of(first));
+        let shared_before = self.pairs[group.start..first]
+            .iter()
+            .any(|pair| pair.normal == normal);
+        if shared_before {
+            return;
+        }
+        self.queue.clear();
+        self.queue.extend(first..group.end);
+        self.queue.retain(|&pair| self.pairs[pair].normal == normal);
+        let smallest = |cell: &Self| {
+            let gaps = cell.queue.iter().map(|&pair| cell.gap(pair));
+            gaps.fold(f64::INFINITY, f64::min)
+        };
+        let kept = smallest(self);
+        if kept >= SKIN {
+            return;
+        }
+        let turned = (turn * normal).normalize();
+        self.set_normals(bodies, turned);
+        if smallest(self) <= kept {
+            self.set_normals(bodies, normal);
+        }
+    }
+
+    /// Gives all queued pairs, of one obstacle, the unit world normal `n` and their supports.
+    fn set_normals(&mut self, bodies: Bodies<'_>, normal: DVec3) {
+        for slot in 0..self.queue.len() {
+            self.set_normal(bodies, self.queue[slot], normal);
         }
     }
 
@@ -175,8 +224,9 @@ impl Cell {
             let obstacle = self.obstacle_of(first);
             self.queue.clear();
             for &(pair, _) in &before[..held] {
-                if self.obstacle_of(pair) == obstacle {
-                    self.queue.push(pair);
+                let leader = self.leader(pair);
+                if self.obstacle_of(pair) == obstacle && !self.queue.contains(&leader) {
+                    self.queue.push(leader);
                 }
             }
             self.refresh_queue(bodies, obstacle);
@@ -185,6 +235,17 @@ impl Cell {
             .iter()
             .map(|&(pair, normal)| (self.pairs[pair].normal - normal).length())
             .fold(0.0, f64::max)
+    }
+
+    /// The pair whose detection gave `pair` its normal. Of several segments behind one plane it is the one that touches; the others'
+    /// own nearest points would give normals of their seams.
+    fn leader(&self, pair: usize) -> usize {
+        let mut leader = pair;
+        // A chain of adoptions is never longer than the group.
+        for _ in 0..self.segment_count {
+            leader = self.pairs[leader].leader;
+        }
+        leader
     }
 
     /// Every plane holding the tool was decided in the present round.
@@ -218,7 +279,7 @@ impl Cell {
     }
 
     /// Redundant planes: a pair whose gap along a leader's normal is no smaller than the leader's takes that normal and so adds no plane
-    /// of its own **(contact.6)**. Without this a straight tool cut in segments catches on its own seams.
+    /// of its own (contact.6). Without this a straight tool cut in segments catches on its own seams.
     fn adopt_covering_planes(&mut self, bodies: Bodies<'_>, obstacle: usize) {
         let mut queue = std::mem::take(&mut self.queue);
         queue.sort_unstable_by(|&a, &b| self.gap(a).total_cmp(&self.gap(b)).then(a.cmp(&b)));
@@ -230,7 +291,7 @@ impl Cell {
                 .copied()
                 .find(|&leader| self.covers(bodies, leader, pair));
             if let Some(leader) = covered {
-                self.set_normal(bodies, pair, self.pairs[leader].normal);
+                self.adopt(bodies, pair, leader);
                 continue;
             }
             // A leader of the same gap that this pair covers was only first by rounding: it gives way.
@@ -239,7 +300,7 @@ impl Cell {
                 let leader = queue[index];
                 let tied = self.gap(leader) + TIE >= self.gap(pair);
                 if tied && self.covers(bodies, pair, leader) {
-                    self.set_normal(bodies, leader, self.pairs[pair].normal);
+                    self.adopt(bodies, leader, pair);
                 } else {
                     queue.swap(kept, index);
                     kept += 1;
@@ -257,11 +318,16 @@ impl Cell {
                 .copied()
                 .find(|&leader| self.covers(bodies, leader, other));
             if let Some(leader) = covering {
-                self.set_normal(bodies, other, self.pairs[leader].normal);
+                self.adopt(bodies, other, leader);
                 self.pairs[other].round = self.round;
             }
         }
         self.queue = queue;
+    }
+
+    fn adopt(&mut self, bodies: Bodies<'_>, pair: usize, leader: usize) {
+        self.set_normal(bodies, pair, self.pairs[leader].normal);
+        self.pairs[pair].leader = leader;
     }
 
     fn covers(&mut self, bodies: Bodies<'_>, leader: usize, pair: usize) -> bool {
@@ -269,7 +335,7 @@ impl Cell {
     }
 
     /// Closest points of one pair; the normal is taken over only if finite and certified by a support gap of at least ε/4
-    /// **(contact.5)**, else the kept one stays.
+    /// (contact.5), else the kept one stays.
     fn detect(&mut self, bodies: Bodies<'_>, pair: usize) {
         let obstacle = &bodies.obstacles[self.obstacle_of(pair)];
         let segment = &bodies.segments[self.segment_of(pair)];
@@ -284,13 +350,18 @@ impl Cell {
         }
         let kept = self.pairs[pair];
         self.set_normal(bodies, pair, normal.normalize());
+        self.pairs[pair].leader = pair;
         if self.gap(pair) >= ACCEPTED_GAP {
             self.pairs[pair].witness = obstacle
                 .world_from_object
                 .transform_point(0.5 * (closest.witness_a + closest.witness_b));
         } else {
-            let cache = self.pairs[pair].cache;
-            self.pairs[pair] = Pair { cache, ..kept };
+            let Pair { cache, leader, .. } = self.pairs[pair];
+            self.pairs[pair] = Pair {
+                cache,
+                leader,
+                ..kept
+            };
         }
     }
 

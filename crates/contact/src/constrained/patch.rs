@@ -1,4 +1,4 @@
-//! The touching patch of two convex bodies: support polygon of the tool ∩ support polygon of the obstacle **(contact.9)**.
+//! The touching patch of two convex bodies: support polygon of the tool ∩ support polygon of the obstacle (contact.9).
 //!
 //! Closest-point detection returns an arbitrary pair of points of two parallel faces; a torque taken from it jumps by
 //! 0.05–0.17 N·m while nothing moves. The centroid of the patch does not.

@@ -231,7 +231,8 @@ impl Reporter {
     }
 }
 
-/// Moment of `push` about `haptic` [m²]: each contact carries its share at its patch, the remainder acts at the shares' centre.
+/// Moment of `push` about `haptic` [m²] (contact.8): each contact carries its share at its patch, the remainder acts at the
+/// shares' centre.
 fn moment(contacts: &[Option<Contact>; MAX_CONTACTS], push: DVec3, haptic: DVec3) -> DVec3 {
     let mut moment = DVec3::ZERO;
     let mut carried = DVec3::ZERO;

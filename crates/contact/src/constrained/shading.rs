@@ -1,4 +1,4 @@
-//! Force shading: the direction of the force follows interpolated normals, the visual tool does not move **(contact.10)**.
+//! Force shading: the direction of the force follows interpolated normals, the visual tool does not move (contact.10).
 //!
 //! After Morgenbesser & Srinivasan (1996), with angle-weighted vertex normals interpolated over the touched feature; magnitudes are kept.
 

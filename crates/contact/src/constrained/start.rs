@@ -20,7 +20,7 @@ pub(crate) enum Start {
 
 /// Sets up the planes at `pose` and moves the tool out of overlap.
 ///
-/// Every segment of one obstacle gets the same exit normal, the one with the shallowest exit over *all* segments **(contact.11)**:
+/// Every segment of one obstacle gets the same exit normal, the one with the shallowest exit over *all* segments (contact.11):
 /// penetration normals of single segments contradict each other.
 pub(crate) fn separate(cell: &mut Cell, bodies: Bodies<'_>, pose: Pose) -> Start {
     cell.pose = pose;
