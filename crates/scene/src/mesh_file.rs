@@ -1,0 +1,55 @@
+//! Mesh files, told apart by their extension: OBJ, STL, glTF and GLB.
+
+use std::path::Path;
+
+use pliant_mesh::load::{self, LoadError, Loaded};
+
+use crate::error::{Fault, Place, SceneError};
+use crate::files::Files;
+
+/// Extensions of mesh files, in lower case.
+pub const MESH_EXTENSIONS: [&str; 4] = ["obj", "stl", "gltf", "glb"];
+
+/// Reads a mesh in the unit of its file; `files` gives the buffers that a glTF file names.
+///
+/// # Errors
+/// At the line at fault where the format has lines, else at 1:1; unknown extensions are refused.
+pub fn read_mesh(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<Loaded, SceneError> {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let loaded = match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("obj") => load::obj(bytes),
+        Some("stl") => load::stl(bytes),
+        Some("gltf" | "glb") => {
+            let folder = path.parent().unwrap_or(Path::new(""));
+            let mut buffer = |name: &str| {
+                let read = files.read(&folder.join(name));
+                read.map_err(|error| error.to_string())
+            };
+            load::gltf(bytes, &mut buffer)
+        }
+        _ => {
+            let message = format!(
+                "the file's extension names no mesh format; expected .{}",
+                MESH_EXTENSIONS.join(", .")
+            );
+            return Err(at(path, (1, 1), message));
+        }
+    };
+    loaded.map_err(|error| {
+        let position = match &error {
+            LoadError::Line { line, .. } => (*line, 1),
+            LoadError::Json { line, column, .. } => (*line, *column),
+            _ => (1, 1),
+        };
+        at(path, position, error.to_string())
+    })
+}
+
+fn at(path: &Path, (line, column): (usize, usize), message: String) -> SceneError {
+    let place = Place::File {
+        file: path.display().to_string(),
+        line,
+        column,
+    };
+    SceneError::new(place, Fault::Geometry(message))
+}
