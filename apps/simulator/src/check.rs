@@ -1,0 +1,175 @@
+//! `pliant check`: what is in a file, or where it is wrong.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use pliant_mesh::{Winding, inspect};
+use pliant_scene::{Disk, MESH_EXTENSIONS, Scene, Unit, read_mesh, read_trajectory};
+
+use crate::cli::CheckArguments;
+use crate::failure::Failure;
+use crate::output;
+
+/// Checks every file, also after one that is wrong.
+pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    let mut wrong = false;
+    for path in &arguments.files {
+        match report(path, arguments.unit) {
+            Ok(text) => output::print(&text)?,
+            Err(Failure::Input(message)) => {
+                output::note(&message);
+                wrong = true;
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    if wrong {
+        Err(Failure::Reported)
+    } else {
+        Ok(())
+    }
+}
+
+fn report(path: &Path, unit: Option<Unit>) -> Result<String, Failure> {
+    let name = path.display().to_string();
+    let bytes = std::fs::read(path).map_err(|error| Failure::Input(format!("{name}: {error}")))?;
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    match extension.map(str::to_ascii_lowercase).as_deref() {
+        Some("ron") => scene(&name, &bytes),
+        Some("csv") => trajectory(&name, &bytes),
+        Some(mesh_extension) if MESH_EXTENSIONS.contains(&mesh_extension) => {
+            mesh(path, &bytes, unit)
+        }
+        _ => Err(Failure::Input(format!(
+            "{name}: the extension names nothing that can be checked; expected .ron, .csv or .{}",
+            MESH_EXTENSIONS.join(", .")
+        ))),
+    }
+}
+
+/// A text in the making: a heading and indented lines.
+struct Lines(String);
+
+impl Lines {
+    fn add(&mut self, name: &str, value: impl std::fmt::Display) {
+        let _ = writeln!(self.0, "  {name:<12}{value}");
+    }
+}
+
+fn scene(name: &str, bytes: &[u8]) -> Result<String, Failure> {
+    let scene = Scene::from_bytes(bytes, name)?;
+    let built = scene.build(&Disk)?;
+    let mut lines = Lines(format!("{name}: scene\n"));
+    if !scene.description().description.is_empty() {
+        lines.add("shows", &scene.description().description);
+    }
+    let world = &built.world;
+    let segments = world.tool().segments.len();
+    lines.add(
+        "tool",
+        format!("{segments} segment{}", if segments == 1 { "" } else { "s" }),
+    );
+    for (name, obstacle) in world.object_names().iter().zip(world.obstacles()) {
+        let topology = obstacle.shape.topology();
+        let (vertices, faces) = (topology.vertex_count(), topology.face_count());
+        lines.add(
+            "object",
+            format!("{name}: {vertices} vertices, {faces} faces"),
+        );
+    }
+    lines.add("method", built.method.name());
+    lines.add(
+        "run",
+        format!(
+            "{} s at {} Hz, motion of {} s",
+            built.seconds,
+            built.rate_hz,
+            built.trajectory.duration()
+        ),
+    );
+    Ok(lines.0)
+}
+
+fn trajectory(name: &str, bytes: &[u8]) -> Result<String, Failure> {
+    let trajectory = read_trajectory(bytes, name)?;
+    let mut lines = Lines(format!("{name}: trajectory\n"));
+    let merged = trajectory.merged();
+    lines.add("duration", format!("{} s", trajectory.duration()));
+    lines.add("samples", trajectory.knots().len());
+    if merged.duplicates + merged.near_duplicates > 0 {
+        lines.add(
+            "repairs",
+            format!(
+                "{} samples with the time of another and {} almost so were merged",
+                merged.duplicates, merged.near_duplicates
+            ),
+        );
+    }
+    Ok(lines.0)
+}
+
+fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure> {
+    let loaded = read_mesh(path, bytes, &Disk)?;
+    let found = inspect(&loaded.mesh);
+    let mut lines = Lines(format!("{}: mesh\n", path.display()));
+    lines.add("vertices", found.vertices);
+    lines.add("faces", found.faces);
+    lines.add("shells", found.shells);
+    match (&found.manifold, found.boundary_loops) {
+        (Err(reason), _) => lines.add("manifold", format!("no: {reason}")),
+        (Ok(()), Some(loops)) if loops > 0 => {
+            lines.add("closed", format!("no: {loops} open border(s)"));
+        }
+        _ => lines.add("closed", if found.closed { "yes" } else { "no" }),
+    }
+    match &found.convex {
+        Ok(()) => lines.add("convex", "yes"),
+        Err(reason) => lines.add("convex", format!("no: {reason}")),
+    }
+    lines.add(
+        "winding",
+        match found.winding {
+            Winding::Outward => "outward",
+            Winding::Inward => "inward: the mesh is inside out",
+            Winding::Inconsistent => "inconsistent between neighbours",
+            Winding::Open => "of an open surface",
+        },
+    );
+    let (factor, length, volume) = match unit {
+        Some(unit) => (unit.metres() * 1e3, "mm", "mm³"),
+        None => (1.0, "file units (give --unit for mm)", "cubic file units"),
+    };
+    let size = found.size * factor;
+    lines.add(
+        "size",
+        format!(
+            "{} x {} x {} {length}",
+            round(size.x),
+            round(size.y),
+            round(size.z)
+        ),
+    );
+    lines.add(
+        "volume",
+        format!("{} {volume}", round(found.signed_volume * factor.powi(3))),
+    );
+    if found.degenerate_triangles > 0 {
+        lines.add("flat faces", found.degenerate_triangles);
+    }
+    let joined = loaded.mesh.positions().len().saturating_sub(found.vertices);
+    if joined > 0 {
+        lines.add(
+            "repairs",
+            format!("{joined} vertices at the place of another joined, or unused"),
+        );
+    }
+    for note in &loaded.report.notes {
+        lines.add("repairs", note);
+    }
+    Ok(lines.0)
+}
+
+/// Six significant digits: what a file of single-precision numbers holds.
+fn round(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}
