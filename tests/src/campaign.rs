@@ -203,10 +203,10 @@ impl Verdict {
 fn reach(setting: Setting) -> DVec3 {
     match setting {
         Setting::Box => DVec3::new(0.055, 0.055, 0.03),
-        Setting::Plate => DVec3::new(0.045, 0.045, 0.03),
+        Setting::Plate => DVec3::new(0.055, 0.055, 0.025),
         Setting::Hull => DVec3::splat(0.045),
         Setting::LatitudeLongitude | Setting::Fibonacci => DVec3::new(0.055, 0.045, 0.035),
-        Setting::Corner => DVec3::new(0.09, 0.09, 0.03),
+        Setting::Corner => DVec3::new(0.1, 0.11, 0.05),
         Setting::Slot => DVec3::new(0.06, 0.02, 0.03),
     }
 }

@@ -78,7 +78,7 @@ impl RandomHand {
     fn choose(&mut self) {
         let mut number = |low: f64, high: f64| self.random.random_range(low..high);
         let swing = number(0.0, 1.0) < 0.25;
-        self.remaining = number(0.05, 0.25);
+        self.remaining = number(0.03, 0.15);
         if swing {
             let axis = DVec3::new(number(-1.0, 1.0), number(-1.0, 1.0), number(-1.0, 1.0));
             let turn = DQuat::from_scaled_axis(axis.normalize_or(DVec3::Z) * number(0.5, 1.6));
