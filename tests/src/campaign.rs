@@ -211,7 +211,7 @@ fn reach(setting: Setting) -> DVec3 {
     }
 }
 
-/// All runs of the full campaign: every setting, four tools, one and ten segments, three seeds of 10 s.
+/// All runs of the full campaign: every setting, four tools, one and ten segments, three seeds of 15 s.
 pub fn full_runs() -> Vec<Run> {
     let tools = [
         (ToolKind::Rod, 1),
@@ -230,7 +230,7 @@ pub fn full_runs() -> Vec<Run> {
                     tool,
                     segments,
                     seed,
-                    ticks: 10_000,
+                    ticks: 15_000,
                     judge_interval: 4,
                 });
             }
