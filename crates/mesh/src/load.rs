@@ -1,8 +1,9 @@
 //! Meshes from the bytes of OBJ, glTF/GLB and STL files.
 //!
-//! Every reader here checks each number, index and range itself before use and names the line, chunk or
-//! element at fault; no input makes it panic, recurse deeply or allocate much more than the file's size
-//! (instances excepted, which are limited). All objects, groups and scene nodes of a file become one mesh, in
+//! The libraries `tobj`, `gltf` and `stl_io` parse. They trust their input more than a loader may, so each
+//! reader here checks lengths, numbers, indices and ranges and names the line, chunk or element at fault; no
+//! input makes it panic, recurse deeply or allocate out of proportion to the file's size (instances excepted,
+//! which are limited). All objects, groups and scene nodes of a file become one mesh, in
 //! the file's unit. Vertices stay as the file has them, used ones only: weld to close seams.
 
 mod ear_clip;
@@ -119,6 +120,14 @@ pub enum LoadError {
     Extension {
         /// Name of the glTF extension.
         name: String,
+    },
+    /// The parsing library refuses what the checks here let pass.
+    #[error("{library} cannot read the file: {message}; export it anew")]
+    Library {
+        /// Name of the library.
+        library: &'static str,
+        /// What it says.
+        message: String,
     },
     /// Nothing to load.
     #[error("no triangles: {found}")]

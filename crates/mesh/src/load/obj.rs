@@ -1,46 +1,25 @@
 //! Wavefront OBJ (Alias|Wavefront, "Object files", appendix B1): the polygonal part.
 //!
-//! Of the two libraries' worth of features only `v` and `f` carry shape, so they are read here line by line
-//! and everything about materials, texture coordinates and normals is passed over. Known readers accept
-//! infinite coordinates, drop short faces in silence, fan concave polygons and refuse a whole file for an
-//! empty `usemtl`; this one reports with the line number instead.
+//! Positions and indices are those that the library `tobj` reads, at `f64`; polygons are cut here. A pass
+//! over the lines comes first, for what `tobj` 4.0 does in silence or without a line number:
+//!
+//! - it takes infinite coordinates and NaN, divides by a fourth number of `v`, and refuses a fifth;
+//! - it makes points and lines of faces with one or two corners, and says nothing about `fo` and curves;
+//! - it refuses the whole file for an empty `usemtl`, a comment behind a face, a continued line or a name
+//!   that is not UTF-8, and takes a file with lines ended by `\r` for one line;
+//! - bad numbers and indices are errors that do not say where.
+
+mod scan;
+
+use std::io::Read;
 
 use glam::DVec3;
 
 use super::ear_clip::{Triangulation, triangulate};
-use super::{
-    LoadError, LoadReport, Loaded, MAX_LOADED, at_line, coordinate, shortened, text_lines,
-};
+use super::{LoadError, LoadReport, Loaded, at_line};
 use crate::TriangleMesh;
 use crate::triangle_mesh::compacted;
-
-/// Keywords that say nothing about the shape of polygons.
-const PASSED_OVER: [&str; 14] = [
-    "vt",
-    "vn",
-    "vp",
-    "g",
-    "o",
-    "s",
-    "mg",
-    "usemtl",
-    "mtllib",
-    "usemap",
-    "maplib",
-    "bevel",
-    "shadow_obj",
-    "lod",
-];
-
-#[derive(Default)]
-struct Reader {
-    positions: Vec<DVec3>,
-    /// Corner indices of all faces one after the other.
-    corners: Vec<i64>,
-    /// Line and end in `corners` of each face with at least three corners.
-    faces: Vec<(usize, usize)>,
-    report: LoadReport,
-}
+use scan::{Scanned, scan};
 
 /// Reads an OBJ file: all objects and groups as one mesh, polygons cut into triangles, positions in the
 /// file's unit and in full `f64` precision.
@@ -49,192 +28,77 @@ struct Reader {
 /// Text that is not UTF-8-like, a malformed or infinite coordinate, a bad index, all with the line number;
 /// no face with three corners.
 pub fn obj(bytes: &[u8]) -> Result<Loaded, LoadError> {
-    let mut reader = Reader::default();
-    for (line, text) in text_lines(bytes)? {
-        let mut tokens = text.split_whitespace().take_while(|t| !t.starts_with('#'));
-        match tokens.next() {
-            None => {}
-            Some("v") => reader.vertex(tokens, line)?,
-            Some("f" | "fo") => reader.face(tokens, line)?,
-            Some("l" | "p") => reader
-                .report
-                .note("line or point elements skipped", format!("line {line}")),
-            Some(word) if PASSED_OVER.contains(&word) => {}
-            Some(word) => {
-                let what = format!("`{}` statements skipped", shortened(word));
-                // Garbage must not make a note per line.
-                let what = if reader.report.notes.len() < 20 {
-                    &what
-                } else {
-                    "more unknown statements skipped"
-                };
-                reader.report.note(what, format!("line {line}"));
-            }
+    let mut scanned = scan(bytes)?;
+    let parsed = parsed(&scanned)?;
+    let positions: Vec<DVec3> = parsed
+        .positions
+        .as_chunks()
+        .0
+        .iter()
+        .map(|&p| DVec3::from_array(p))
+        .collect();
+    // No arities are given when there are triangles only.
+    let mut arities = parsed.face_arities.iter().map(|&n| n as usize).skip(1);
+    let mut rest = &parsed.indices[scanned.vertices..];
+    let mut triangles = Vec::with_capacity(scanned.face_lines.len());
+    for &line in &scanned.face_lines {
+        let (polygon, behind) = rest.split_at(arities.next().unwrap_or(3));
+        rest = behind;
+        if let &[a, b, c] = polygon {
+            triangles.push([a, b, c]);
+        } else {
+            let cut = triangulate(&positions, polygon, &mut triangles);
+            told(&cut, line, polygon.len(), &mut scanned.report)?;
         }
     }
-    reader.finish()
+    let checked = TriangleMesh::new(positions, triangles)?;
+    Ok(Loaded {
+        mesh: compacted(checked.positions(), checked.triangles()),
+        report: scanned.report,
+    })
 }
 
-impl Reader {
-    fn vertex<'a>(
-        &mut self,
-        mut tokens: impl Iterator<Item = &'a str>,
-        line: usize,
-    ) -> Result<(), LoadError> {
-        let mut xyz = [0.0; 3];
-        for (value, name) in xyz.iter_mut().zip(["x", "y", "z"]) {
-            let token = tokens.next().ok_or_else(|| {
-                at_line(line, format!("vertex without {name}: expected `v x y z`"))
-            })?;
-            *value = coordinate(token, line)?;
-        }
-        self.positions.push(DVec3::from_array(xyz));
-        if self.positions.len() > MAX_LOADED {
-            let (what, limit) = ("vertices", MAX_LOADED);
-            return Err(LoadError::TooLarge { what, limit });
-        }
-        Ok(())
+/// Lets `tobj` read the cleaned text. It hands over only positions that a face uses, in the order of use:
+/// a first face with all vertices in a row keeps the file's numbering.
+fn parsed(scanned: &Scanned) -> Result<tobj::Mesh, LoadError> {
+    let mut all = String::from("f");
+    for index in 1..=scanned.vertices {
+        all.push(' ');
+        all.push_str(&index.to_string());
     }
-
-    /// Corners as zero-based indices; those counted from the end are resolved here, ranges at the end of the
-    /// file because a face may come before its vertices.
-    fn face<'a>(
-        &mut self,
-        tokens: impl Iterator<Item = &'a str>,
-        line: usize,
-    ) -> Result<(), LoadError> {
-        let start = self.corners.len();
-        for token in tokens {
-            let index = self.corner(token, line)?;
-            if self.corners[start..].last() == Some(&index) {
-                self.report
-                    .note("repeated corners of faces merged", format!("line {line}"));
-            } else {
-                self.corners.push(index);
-            }
-        }
-        if self.corners.len() - start > 3
-            && self.corners[start] == self.corners[self.corners.len() - 1]
-        {
-            self.corners.pop();
-            self.report
-                .note("repeated corners of faces merged", format!("line {line}"));
-        }
-        if self.corners.len() - start < 3 {
-            // The indices of a dropped face still show whether the file is sound.
-            self.corners.truncate(start);
-            self.report.note(
-                "faces with fewer than three corners dropped",
-                format!("line {line}"),
-            );
-        } else {
-            self.faces.push((line, self.corners.len()));
-        }
-        Ok(())
-    }
-
-    /// The position index of `7`, `7/1`, `7//2`, `7/1/2`, `-1` ….
-    fn corner(&self, token: &str, line: usize) -> Result<i64, LoadError> {
-        let mut position = None;
-        for (k, part) in token.split('/').enumerate() {
-            if k > 0 && part.is_empty() {
-                continue;
-            }
-            let index: i64 = part.parse().map_err(|_| {
-                at_line(
-                    line,
-                    format!(
-                        "`{}` is not a corner: expected `v`, `v/vt`, `v//vn` or `v/vt/vn`",
-                        shortened(token)
-                    ),
-                )
-            })?;
-            position.get_or_insert(index);
-        }
-        let count = i64::try_from(self.positions.len()).unwrap_or(i64::MAX);
-        match position {
-            Some(index) if index > 0 => Ok(index - 1),
-            Some(index) if index < 0 && -count <= index => Ok(count + index),
-            Some(0) => Err(at_line(line, "vertex index 0: indices start at 1")),
-            _ => Err(at_line(
-                line,
-                format!(
-                    "vertex index `{}`, but only {count} vertices come before it",
-                    shortened(token)
-                ),
-            )),
-        }
-    }
-
-    fn nothing(&self) -> LoadError {
-        let vertices = self.positions.len();
-        let notes: Vec<String> = self.report.notes.iter().map(ToString::to_string).collect();
-        let found = if notes.is_empty() {
-            format!("the file has {vertices} vertices and no faces")
-        } else {
-            format!("the file has {vertices} vertices; {}", notes.join("; "))
-        };
-        LoadError::NoTriangles { found }
-    }
-
-    fn finish(mut self) -> Result<Loaded, LoadError> {
-        if self.faces.is_empty() {
-            return Err(self.nothing());
-        }
-        let mut triangles = Vec::new();
-        let mut start = 0;
-        for &(line, end) in &self.faces {
-            let mut polygon = Vec::with_capacity(end - start);
-            for &index in &self.corners[start..end] {
-                let vertex = u32::try_from(index)
-                    .ok()
-                    .filter(|&v| (v as usize) < self.positions.len());
-                polygon.push(vertex.ok_or_else(|| {
-                    at_line(
-                        line,
-                        format!(
-                            "vertex index {}, but the file has {} vertices",
-                            index + 1,
-                            self.positions.len()
-                        ),
-                    )
-                })?);
-            }
-            start = end;
-            if polygon.len() > 3 {
-                let place = format!("line {line}");
-                match triangulate(&self.positions, &polygon, &mut triangles) {
-                    Triangulation::Convex => {}
-                    Triangulation::Concave => self
-                        .report
-                        .note("concave polygons cut by ear clipping", place),
-                    Triangulation::Failed => self
-                        .report
-                        .note("self-intersecting or collapsed polygons fanned", place),
-                    Triangulation::TooLong(limit) => {
-                        return Err(at_line(
-                            line,
-                            format!(
-                                "a concave face with {} corners: at most {limit}",
-                                polygon.len()
-                            ),
-                        ));
-                    }
-                }
-            } else {
-                triangles.push([polygon[0], polygon[1], polygon[2]]);
-            }
-            if triangles.len() > MAX_LOADED {
-                let (what, limit) = ("triangles", MAX_LOADED);
-                return Err(LoadError::TooLarge { what, limit });
-            }
-        }
-        let checked = TriangleMesh::new(self.positions, triangles)?;
-        Ok(Loaded {
-            mesh: compacted(checked.positions(), checked.triangles()),
-            report: self.report,
+    all.push('\n');
+    let mut text = all.as_bytes().chain(scanned.text.as_bytes());
+    let no_materials = |_: &std::path::Path| Err(tobj::LoadError::OpenFileFailed);
+    tobj::load_obj_buf(&mut text, &tobj::LoadOptions::default(), no_materials)
+        .and_then(|(models, _)| {
+            let model = models.into_iter().next();
+            model.ok_or(tobj::LoadError::GenericFailure)
         })
-    }
+        .map(|model| model.mesh)
+        .map_err(|error| LoadError::Library {
+            library: "tobj",
+            message: error.to_string(),
+        })
+}
+
+/// Reports how a polygon was cut.
+fn told(
+    cut: &Triangulation,
+    line: usize,
+    corners: usize,
+    report: &mut LoadReport,
+) -> Result<(), LoadError> {
+    let what = match cut {
+        Triangulation::Convex => return Ok(()),
+        Triangulation::Concave => "concave polygons cut by ear clipping",
+        Triangulation::Failed => "self-intersecting or collapsed polygons fanned",
+        Triangulation::TooLong(limit) => {
+            let message = format!("a concave face with {corners} corners: at most {limit}");
+            return Err(at_line(line, message));
+        }
+    };
+    report.note(what, format!("line {line}"));
+    Ok(())
 }
 
 #[cfg(test)]
@@ -336,6 +200,78 @@ mod tests {
         assert!(
             error.to_string().contains("4 vertices; 1 faces with fewer"),
             "{error}"
+        );
+    }
+
+    /// What the module says of `tobj`, so that the pass over the lines goes when it is no longer true.
+    #[test]
+    fn the_scan_covers_what_the_library_does_not() {
+        let raw = |text: &str| {
+            let options = tobj::LoadOptions::default();
+            let loaded = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
+                Err(tobj::LoadError::OpenFileFailed)
+            });
+            loaded.map(|(models, _)| models[0].mesh.clone())
+        };
+        let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+        assert_eq!(raw(triangle).unwrap().indices, [0, 1, 2]);
+        // Taken as it is: not finite, divided, two corners, one line.
+        let infinite = raw(&triangle.replace("1 0 0", "inf nan 0")).unwrap();
+        assert!(infinite.positions[3].is_infinite() && infinite.positions[4].is_nan());
+        let weighted = triangle.replace("1 0 0", "1 0 0 2");
+        assert_eq!(
+            raw(&weighted).unwrap().positions[3].to_bits(),
+            0.5_f64.to_bits()
+        );
+        let short = raw(&format!("{triangle}f 1 2\n")).unwrap();
+        assert_eq!(short.face_arities, [3, 2]);
+        assert!(raw(&triangle.replace('\n', "\r")).is_err());
+        // Refused, though the shape is clear.
+        for harmless in [
+            &weighted,
+            &triangle.replace("1 0 0", "1 0 0 0.5 0.5"),
+            &triangle.replace("f 1 2 3", "usemtl\nf 1 2 3 # face"),
+            &triangle.replace("f 1 2 3", "f 1 2 \\\n 3"),
+            &triangle.replace('\n', "\r"),
+        ] {
+            let mesh = obj(harmless.as_bytes()).unwrap().mesh;
+            assert!((mesh.surface_area() - 0.5).abs() < 1e-15, "{harmless}");
+            assert!(
+                harmless == &weighted || raw(harmless).is_err(),
+                "{harmless}"
+            );
+        }
+    }
+
+    #[test]
+    fn vertices_keep_their_order_and_every_bit() {
+        let loaded =
+            obj(b"v 3 0.1 1e-300\nv 7 7 7\nv 0 2.2250738585072014e-308 0\nv 0 0 1\nf 4 3 1")
+                .unwrap();
+        let positions = loaded.mesh.positions();
+        assert_eq!(
+            positions[0].to_array().map(f64::to_bits),
+            [3.0, 0.1, 1e-300].map(f64::to_bits)
+        );
+        assert_eq!(positions[1].y.to_bits(), f64::MIN_POSITIVE.to_bits());
+        assert_eq!(loaded.mesh.triangles(), [[2, 1, 0]]);
+    }
+
+    #[test]
+    fn arities_of_mixed_faces_are_kept_apart() {
+        let loaded = obj(
+            format!("v 5 5 5\n{SQUARE}v 2 0.5 0\nf 2 3 4 5\nf 3 6 4\nf 2 3 6 4 5\n").as_bytes(),
+        )
+        .unwrap();
+        assert_eq!(loaded.mesh.triangles().len(), 2 + 1 + 3);
+        assert!((loaded.mesh.surface_area() - (1.0 + 0.5 + 1.5)).abs() < 1e-15);
+        // Triangles only, and three vertices: the library leaves the arities out.
+        let three = obj(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1").unwrap();
+        assert_eq!(three.mesh.triangles(), [[0, 1, 2], [2, 1, 0]]);
+        // Fewer vertices than corners.
+        assert_eq!(
+            obj(b"v 0 0 0\nv 1 0 0\nf 1 2 1").unwrap().mesh.triangles(),
+            [[0, 1, 0]]
         );
     }
 

@@ -1,11 +1,16 @@
 //! STL, binary and text (3D Systems, "stereolithography interface specification", 1988).
 //!
-//! Read here rather than by `stl_io` 0.11, which keeps text files at `f32`, has no line numbers, and takes a
-//! binary file whose header starts with "solid " for text. Stored normals are ignored: the winding decides.
+//! The library `stl_io` reads the triangles of binary files, once their kind and length are checked here: it
+//! would take a binary file whose header starts with "solid " for text, and lets infinite coordinates and NaN
+//! pass. Text files are read line by line here. `stl_io` 0.11 keeps their coordinates at `f32`, while ours
+//! are worth `f64`; it stops at the first `endsolid`, so further solids vanish in silence; it wants "solid "
+//! in lower case with a space behind it; and its errors have no line numbers. A test below shows each.
+//! Stored normals are ignored: the winding decides.
 
 use std::collections::HashMap;
+use std::io::Cursor;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{
     LoadError, LoadReport, Loaded, MAX_LOADED, at_line, coordinate, shortened, text_lines,
@@ -93,22 +98,31 @@ fn read_binary(bytes: &[u8], count: usize, builder: &mut Builder) -> Result<(), 
             format!("byte {}", HEADER + count * RECORD),
         );
     }
-    for (i, record) in body.chunks_exact(RECORD).take(count).enumerate() {
-        let mut corners = [DVec3::ZERO; 3];
-        // 12 bytes of normal, then nine coordinates, then two bytes of attributes.
-        for (k, number) in record[12..48].as_chunks::<4>().0.iter().enumerate() {
-            let value = f64::from(f32::from_le_bytes(*number));
-            if !value.is_finite() {
-                return Err(LoadError::Binary {
-                    offset: HEADER + i * RECORD + 12 + 4 * k,
-                    message: format!("triangle {i} has coordinate {value}, which is not finite"),
-                });
-            }
-            corners[k / 3][k % 3] = value;
+    // The library decides by the first line of the header, which is free text: an empty one makes it binary.
+    let mut checked = vec![b'\n'; HEADER - 4];
+    checked.extend(&bytes[HEADER - 4..HEADER + count * RECORD]);
+    let mut checked = Cursor::new(checked);
+    let triangles = stl_io::create_stl_reader(&mut checked).map_err(|e| refused(&e))?;
+    for (i, triangle) in triangles.enumerate() {
+        let corners = triangle.map_err(|e| refused(&e))?.vertices.map(|v| v.0);
+        if let Some(k) = corners.iter().flatten().position(|x| !x.is_finite()) {
+            let value = corners[k / 3][k % 3];
+            return Err(LoadError::Binary {
+                // The coordinates come behind 12 bytes of normal.
+                offset: HEADER + i * RECORD + 12 + 4 * k,
+                message: format!("triangle {i} has coordinate {value}, which is not finite"),
+            });
         }
-        builder.push(corners)?;
+        builder.push(corners.map(|p| Vec3::from_array(p).as_dvec3()))?;
     }
     Ok(())
+}
+
+fn refused(error: &std::io::Error) -> LoadError {
+    LoadError::Library {
+        library: "stl_io",
+        message: error.to_string(),
+    }
 }
 
 fn read_text(bytes: &[u8], builder: &mut Builder) -> Result<(), LoadError> {
@@ -257,6 +271,50 @@ mod tests {
             mesh.signed_volume().to_bits(),
             ball().signed_volume().to_bits()
         );
+    }
+
+    /// What the module says of `stl_io`, so that the own reading goes when it is no longer true.
+    #[test]
+    fn the_library_falls_short_on_text_and_on_headers() {
+        let judge = |bytes: &[u8]| stl_io::read_stl(&mut Cursor::new(bytes));
+        let plain = text(&ball()).replace("SOLID", "solid ball");
+        let theirs = judge(plain.as_bytes()).unwrap();
+        assert_eq!(theirs.faces.len(), ball().triangles().len());
+        let x = ball().corners(0)[1].x;
+        assert!(
+            theirs
+                .vertices
+                .iter()
+                .all(|v| f64::from(v.0[0]).to_bits() != x.to_bits())
+        );
+        let two = plain.replace("endsolid", "endsolid ball\nsolid other\n")
+            + &plain["solid ball\n".len()..];
+        assert_eq!(
+            judge(two.as_bytes()).unwrap().faces.len(),
+            ball().triangles().len()
+        );
+        assert_eq!(
+            stl(two.as_bytes()).unwrap().mesh.triangles().len(),
+            2 * ball().triangles().len()
+        );
+        for header in ["SOLID", "solid"] {
+            let other = plain.replacen("solid ball", header, 1);
+            assert!(
+                judge(other.as_bytes()).is_err() && stl(other.as_bytes()).is_ok(),
+                "{header}"
+            );
+        }
+        let vortex = plain.replacen("  vertex", "  vortex", 1);
+        let (theirs, ours) = (judge(vortex.as_bytes()), stl(vortex.as_bytes()));
+        assert!(!theirs.unwrap_err().to_string().contains("line"));
+        assert!(ours.unwrap_err().to_string().contains("line 4"));
+        // Bytes that are UTF-8 up to a line feed behind "solid ": text to the library.
+        let mut misleading = binary(&ball());
+        misleading[..8].copy_from_slice(b"solid a\n");
+        assert!(judge(&misleading).is_err() && stl(&misleading).is_ok());
+        let mut infinite = binary(&ball());
+        infinite[96..100].copy_from_slice(&f32::NAN.to_le_bytes());
+        assert!(judge(&infinite).is_ok() && stl(&infinite).is_err());
     }
 
     #[test]
