@@ -3,7 +3,7 @@
 //! `cargo run --release -p pliant-scene --example make_trajectories -- scenes/*.ron`
 //!
 //! A motion starts as a few keyframes of the tool's tip (`make_trajectories/paths.rs`), joined by cubic splines. Then
-//! a model hand follows them in the scene itself, at 1 kHz: it is pulled towards the path like a critically damped
+//! a model hand follows them in the scene itself, at 1 kHz: the tip is pulled towards the path like a critically damped
 //! mass, and it yields, that is it never aims deeper than [`YIELD`] past the visual tool. Every hundredth of a second
 //! its pose is written. Nothing is random: the same program writes the same bytes.
 #![allow(clippy::print_stderr, reason = "a command line tool reports")]
@@ -32,8 +32,8 @@ const QUICKNESS: f64 = 40.0;
 const TICKS_PER_SECOND: u32 = 1000;
 /// Every how many ticks a row is written.
 const TICKS_PER_ROW: u32 = 10;
-/// From the handle's origin to the tip, all shipped tools [m].
-const TOOL_LENGTH: f64 = 0.1;
+/// The tip in the handle's frame, all shipped tools [m].
+const TIP: DVec3 = DVec3::new(0.1, 0.0, 0.0);
 
 fn main() -> ExitCode {
     let scenes: Vec<String> = std::env::args().skip(1).collect();
@@ -121,7 +121,7 @@ impl Path3 {
         let direction = value(&self.direction).normalize();
         let rotation = DQuat::from_rotation_arc(DVec3::X, direction)
             * DQuat::from_rotation_x(value(&self.roll).x.to_radians());
-        Pose::new(rotation, value(&self.tip) - direction * TOOL_LENGTH)
+        Pose::new(rotation, value(&self.tip) - rotation * TIP)
     }
 }
 
@@ -129,6 +129,7 @@ fn follow(world: &World, keyframes: &[Keyframe]) -> Result<Vec<TimedPose>, Box<d
     let path = Path3::new(keyframes)?;
     let dt = 1.0 / f64::from(TICKS_PER_SECOND);
     let mut hand = path.pose(0.0);
+    let mut tip = hand.transform_point(TIP);
     let mut velocity = DVec3::ZERO;
     let mut state = State::new(world, hand);
     let mut rows = Vec::new();
@@ -142,12 +143,14 @@ fn follow(world: &World, keyframes: &[Keyframe]) -> Result<Vec<TimedPose>, Box<d
         if number % TICKS_PER_ROW == 0 {
             rows.push(TimedPose { time, pose: hand });
         }
+        // The tip lags, the orientation does not: a lagging handle would swing the tip about.
         let wanted = path.pose(time + dt);
-        let visual = output.world_from_visual.translation;
-        let aim = visual + (wanted.translation - visual).clamp_length_max(YIELD);
-        let pull = (aim - hand.translation) * QUICKNESS - velocity * 2.0;
+        let visual = tip + (output.world_from_visual.translation - hand.translation);
+        let aim = visual + (wanted.transform_point(TIP) - visual).clamp_length_max(YIELD);
+        let pull = (aim - tip) * QUICKNESS - velocity * 2.0;
         velocity += pull * (QUICKNESS * dt);
-        hand = Pose::new(wanted.rotation, hand.translation + velocity * dt);
+        tip += velocity * dt;
+        hand = Pose::new(wanted.rotation, tip - wanted.rotation * TIP);
     }
     Ok(rows)
 }

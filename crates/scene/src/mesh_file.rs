@@ -35,13 +35,14 @@ pub fn read_mesh(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<Loaded,
             return Err(at(path, (1, 1), message));
         }
     };
-    loaded.map_err(|error| {
-        let position = match &error {
-            LoadError::Line { line, .. } => (*line, 1),
-            LoadError::Json { line, column, .. } => (*line, *column),
-            _ => (1, 1),
-        };
-        at(path, position, error.to_string())
+    loaded.map_err(|error| match error {
+        LoadError::Line { line, message } => at(path, (line, 1), message),
+        LoadError::Json {
+            line,
+            column,
+            message,
+        } => at(path, (line, column), format!("glTF JSON: {message}")),
+        other => at(path, (1, 1), other.to_string()),
     })
 }
 

@@ -1,4 +1,9 @@
 //! Scenes become worlds, and what cannot be built says where and why.
+#![allow(
+    clippy::too_many_lines,
+    clippy::unwrap_used,
+    reason = "tables of cases; a failed step fails the test"
+)]
 
 use glam::DVec3;
 use pliant_scene::{BuiltScene, MemoryFiles, Scene, SceneError};

@@ -1,4 +1,5 @@
 //! Every fault of a scene is told with its line and column.
+#![allow(clippy::too_many_lines, reason = "tables of cases")]
 
 use pliant_scene::Scene;
 

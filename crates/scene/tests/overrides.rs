@@ -1,4 +1,5 @@
 //! `--set` reaches every field, and its faults cite the argument.
+#![allow(clippy::unwrap_used, reason = "a failed step fails the test")]
 
 use glam::DVec3;
 use pliant_scene::{MethodName, Override, Scene, SceneError};
