@@ -110,7 +110,14 @@ fn trajectory(name: &str, bytes: &[u8]) -> Result<String, Failure> {
 
 fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure> {
     let loaded = read_mesh(path, bytes, &Disk)?;
-    let found = inspect(&loaded.mesh);
+    // In metres where the unit is known: the reasons below state lengths in metres.
+    let in_metres = match unit {
+        Some(unit) => loaded.mesh.scaled(unit.metres()),
+        None => loaded.mesh.scaled(1.0),
+    };
+    let in_metres =
+        in_metres.map_err(|error| Failure::Input(format!("{}:1:1: {error}", path.display())))?;
+    let found = inspect(&in_metres);
     let mut lines = Lines(format!("{}: mesh\n", path.display()));
     lines.add("vertices", found.vertices);
     lines.add("faces", found.faces);
@@ -122,9 +129,15 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
         }
         _ => lines.add("closed", if found.closed { "yes" } else { "no" }),
     }
-    match &found.convex {
-        Ok(()) => lines.add("convex", "yes"),
-        Err(reason) => lines.add("convex", format!("no: {reason}")),
+    match (&found.convex, unit) {
+        (Ok(()), _) => lines.add("convex", "yes"),
+        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason}")),
+        (Err(_), None) => {
+            lines.add(
+                "convex",
+                "no: scenes touch its hull with `convex_hull: true`; --unit tells the place",
+            );
+        }
     }
     lines.add(
         "winding",
@@ -136,7 +149,7 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
         },
     );
     let (factor, length, volume) = match unit {
-        Some(unit) => (unit.metres() * 1e3, "mm", "mm³"),
+        Some(_) => (1e3, "mm", "mm³"),
         None => (1.0, "file units (give --unit for mm)", "cubic file units"),
     };
     let size = found.size * factor;

@@ -196,7 +196,65 @@ impl TickTimes {
 
 #[cfg(test)]
 mod tests {
-    use super::TickTimes;
+    use glam::{DQuat, DVec3};
+    use pliant_device::DeviceState;
+    use pliant_servo::Sample;
+    use pliant_sim::TickOutput;
+    use pliant_spatial::{Pose, Twist, Wrench};
+
+    use super::{Gauge, TickTimes};
+
+    /// A tick in which a hand at `hand` feels `force` [N], with no contact reported.
+    fn sample(hand: Pose, force: DVec3) -> Sample {
+        Sample {
+            tick: 0,
+            time: 0.0,
+            device: DeviceState {
+                pose: hand,
+                twist: Twist::ZERO,
+                buttons: 0,
+            },
+            output: TickOutput {
+                world_from_haptic: hand,
+                world_from_visual: hand,
+                wrench: Wrench {
+                    force,
+                    torque: DVec3::ZERO,
+                },
+                contacts: 1,
+                contact: None,
+                penetration_of_haptic: 0.0,
+                held: false,
+                capped: true,
+                coupling_energy: 0.0,
+            },
+            device_wrench: Wrench::ZERO,
+        }
+    }
+
+    #[test]
+    fn a_force_jump_is_what_the_motion_of_the_hand_does_not_explain() {
+        let mut gauge = Gauge::new(1000.0, 1000);
+        let at = |x: f64| Pose::from_translation(DVec3::X * x);
+        gauge.add(&sample(at(0.0), DVec3::ZERO), 0.0);
+        // 1 mm at 1000 N/m explains 1 N.
+        gauge.add(&sample(at(0.001), DVec3::Z), 2e-9);
+        assert!(gauge.summary.max_force_jump_n.abs() < 1e-12);
+        gauge.add(&sample(at(0.001), DVec3::Z * 1.5), 1e-9);
+        assert!((gauge.summary.max_force_jump_n - 0.5).abs() < 1e-12);
+        // Turning about the handle moves the point in contact: here the handle's origin, which stays.
+        let turned = Pose::new(DQuat::from_rotation_z(1.0), DVec3::X * 0.001);
+        gauge.add(&sample(turned, DVec3::Z * 4.0), 0.0);
+        assert!((gauge.summary.max_force_jump_n - 2.5).abs() < 1e-12);
+        let summary = &gauge.summary;
+        assert_eq!(
+            (summary.ticks, summary.contact_ticks, summary.fallback_ticks),
+            (4, 4, 4)
+        );
+        assert!((summary.seconds - 0.004).abs() < 1e-15);
+        assert!((summary.max_penetration_m - 2e-9).abs() < 1e-20);
+        assert!((gauge.mean_force() - 6.5 / 4.0).abs() < 1e-12);
+    }
 
     #[test]
     fn percentiles_are_ranks() {
