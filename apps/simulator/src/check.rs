@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use pliant_mesh::{Winding, inspect};
+use pliant_mesh::{MeshReport, Winding, inspect};
 use pliant_scene::{Disk, MESH_EXTENSIONS, Scene, Unit, read_mesh, read_trajectory};
 
 use crate::cli::CheckArguments;
@@ -122,32 +122,7 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
     lines.add("vertices", found.vertices);
     lines.add("faces", found.faces);
     lines.add("shells", found.shells);
-    match (&found.manifold, found.boundary_loops) {
-        (Err(reason), _) => lines.add("manifold", format!("no: {reason}")),
-        (Ok(()), Some(loops)) if loops > 0 => {
-            lines.add("closed", format!("no: {loops} open border(s)"));
-        }
-        _ => lines.add("closed", if found.closed { "yes" } else { "no" }),
-    }
-    match (&found.convex, unit) {
-        (Ok(()), _) => lines.add("convex", "yes"),
-        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason}")),
-        (Err(_), None) => {
-            lines.add(
-                "convex",
-                "no: scenes touch its hull with `convex_hull: true`; --unit tells the place",
-            );
-        }
-    }
-    lines.add(
-        "winding",
-        match found.winding {
-            Winding::Outward => "outward",
-            Winding::Inward => "inward: the mesh is inside out",
-            Winding::Inconsistent => "inconsistent between neighbours",
-            Winding::Open => "of an open surface",
-        },
-    );
+    surface(&mut lines, &found, unit);
     let (factor, length, volume) = match unit {
         Some(_) => (1e3, "mm", "mm³"),
         None => (1.0, "file units (give --unit for mm)", "cubic file units"),
@@ -180,6 +155,36 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
         lines.add("repairs", note);
     }
     Ok(lines.0)
+}
+
+/// Closed, convex, and which way it faces.
+fn surface(lines: &mut Lines, found: &MeshReport, unit: Option<Unit>) {
+    match found.boundary_loops {
+        Some(loops) if loops > 0 => lines.add("closed", format!("no: {loops} open border(s)")),
+        _ => lines.add("closed", if found.closed { "yes" } else { "no" }),
+    }
+    if let Err(reason) = &found.manifold {
+        lines.add("manifold", format!("no: {reason}"));
+    }
+    match (&found.convex, unit) {
+        (Ok(()), _) => lines.add("convex", "yes"),
+        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason}")),
+        (Err(_), None) => {
+            lines.add(
+                "convex",
+                "no: scenes touch its hull with `convex_hull: true`; --unit tells the place",
+            );
+        }
+    }
+    lines.add(
+        "winding",
+        match found.winding {
+            Winding::Outward => "outward",
+            Winding::Inward => "inward: the mesh is inside out",
+            Winding::Inconsistent => "inconsistent between neighbours",
+            Winding::Open => "of an open surface",
+        },
+    );
 }
 
 /// Six significant digits: what a file of single-precision numbers holds.
