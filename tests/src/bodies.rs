@@ -47,6 +47,9 @@ impl Setting {
     }
 
     /// The objects, centred about the origin, top faces towards +z.
+    ///
+    /// # Panics
+    /// When a generator refuses one of the sizes written here.
     pub fn objects(self) -> Vec<Object> {
         let block = |name: &str, half: DVec3, centre: DVec3| {
             object(

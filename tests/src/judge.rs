@@ -151,14 +151,19 @@ mod tests {
     #[test]
     fn the_residual_is_the_distance_from_the_cone() {
         let planes = [touching(DVec3::Z), touching(DVec3::X)];
-        assert_eq!(cone_residual(&[], DVec3::Y), 1.0);
-        assert_eq!(cone_residual(&planes[..1], DVec3::Z * 2.0), 0.0);
-        assert_eq!(cone_residual(&planes[..1], -DVec3::Z), 1.0);
-        assert!((cone_residual(&planes, DVec3::new(1.0, 0.5, 2.0)) - 0.5).abs() < 1e-15);
         let far = FreshPlane {
             normal: DVec3::Z,
             separation: 1e-3,
         };
-        assert_eq!(cone_residual(&[far], DVec3::Z), 1.0);
+        for (planes, push, expected) in [
+            (&planes[..0], DVec3::Y, 1.0),
+            (&planes[..1], DVec3::Z * 2.0, 0.0),
+            (&planes[..1], -DVec3::Z, 1.0),
+            (&planes[..], DVec3::new(1.0, 0.5, 2.0), 0.5),
+            (&[far], DVec3::Z, 1.0),
+        ] {
+            let residual = cone_residual(planes, push);
+            assert!((residual - expected).abs() < 1e-15, "{push}: {residual}");
+        }
     }
 }

@@ -107,7 +107,7 @@ impl ConstrainedTracker {
             reporter: Reporter::new(bodies),
             reach: segments
                 .iter()
-                .flat_map(|segment| segment.positions())
+                .flat_map(ConvexMesh::positions)
                 .map(|p| p.length())
                 .fold(0.0, f64::max),
             separated: start != start::Start::Inside,

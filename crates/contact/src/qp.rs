@@ -138,13 +138,16 @@ fn add_plane(planes: &[Plane], plane: usize, x: &mut DVec3, active: &mut ActiveS
         });
         let mut step = full_step;
         let mut blocking = None;
-        for slot in 0..active.len {
-            if r[slot] > 1e-12 {
-                let ratio = active.multiplier[slot] / r[slot];
-                if ratio < step {
-                    step = ratio;
-                    blocking = Some(slot);
-                }
+        for (slot, (m, r)) in active
+            .multiplier
+            .iter()
+            .zip(&r)
+            .take(active.len)
+            .enumerate()
+        {
+            if *r > 1e-12 && m / r < step {
+                step = m / r;
+                blocking = Some(slot);
             }
         }
         if step.is_infinite() {
@@ -155,13 +158,11 @@ fn add_plane(planes: &[Plane], plane: usize, x: &mut DVec3, active: &mut ActiveS
         for (m, r) in active.multiplier.iter_mut().zip(&r).take(active.len) {
             *m = (*m - step * r).max(0.0);
         }
-        match blocking {
-            Some(slot) => active.remove(slot),
-            None => {
-                active.push(plane, multiplier);
-                return true;
-            }
-        }
+        let Some(slot) = blocking else {
+            active.push(plane, multiplier);
+            return true;
+        };
+        active.remove(slot);
     }
     false
 }
@@ -192,12 +193,10 @@ fn polish(planes: &[Plane], target: DVec3, active: &mut ActiveSet) -> DVec3 {
         }
     };
     let mut point = target;
-    for slot in 0..active.len {
-        point += n(slot) * multiplier[slot];
+    for (slot, m) in multiplier.iter().enumerate().take(active.len) {
+        point += n(slot) * *m;
     }
-    for slot in 0..active.len {
-        active.multiplier[slot] = multiplier[slot].max(0.0);
-    }
+    active.multiplier = multiplier.map(|m| m.max(0.0));
     point
 }
 

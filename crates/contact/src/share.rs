@@ -45,10 +45,8 @@ mod tests {
 
     #[test]
     fn one_plane_carries_the_whole_push() {
-        assert_eq!(
-            regularised_shares(&[DVec3::Z], DVec3::Z * 2e-3),
-            [2e-3, 0.0, 0.0]
-        );
+        let shares = regularised_shares(&[DVec3::Z], DVec3::Z * 2e-3);
+        assert!((shares[0] - 2e-3).abs() < 1e-18 && shares[1] + shares[2] < 1e-18);
     }
 
     #[test]

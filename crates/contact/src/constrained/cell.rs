@@ -1,7 +1,7 @@
 //! The free convex cell around the visual tool: one certified separating plane per (obstacle, segment) pair.
 //!
 //! For a unit normal n from obstacle O to segment T at orientation R the plane offset is
-//! b = s_O(n) + s_{−RT}(n) + ε (contact.1) with the support function s; every handle position x with n·x ≥ b keeps that pair
+//! `b = s_O(n) + s_{−RT}(n) + ε` (contact.1) with the support function s; every handle position x with n·x ≥ b keeps that pair
 //! apart, whatever supplied n (contact.2).
 
 use glam::{DQuat, DVec3};
