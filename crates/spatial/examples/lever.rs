@@ -12,5 +12,8 @@ fn main() {
     let tip_in_handle = DVec3::new(0.1, 0.0, 0.0);
     let tip = world_from_handle.transform_point(tip_in_handle);
     let load = Wrench::from_force_at(DVec3::X * 2.0, tip - world_from_handle.translation);
-    println!("tip at {tip} m; 2 N along x there is {} N·m at the handle", load.torque);
+    println!(
+        "tip at {tip} m; 2 N along x there is {} N·m at the handle",
+        load.torque
+    );
 }

@@ -94,7 +94,11 @@ impl Mul for Pose {
 
 /// Axis times angle [rad] of a unit quaternion, the angle in [0, π] (logarithm of the rotation).
 pub fn rotation_vector(rotation: DQuat) -> DVec3 {
-    let q = if rotation.w < 0.0 { -rotation } else { rotation };
+    let q = if rotation.w < 0.0 {
+        -rotation
+    } else {
+        rotation
+    };
     let axis_sine = DVec3::new(q.x, q.y, q.z);
     let sine = axis_sine.length();
     // Below 1e-9 the series 2·v is exact to 1e-18 and the quotient is not defined at 0.

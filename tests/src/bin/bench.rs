@@ -126,17 +126,17 @@ fn row(
         }
     }
     best.sort_unstable();
-    let at = |part: f64| best[((best.len() - 1) as f64 * part).round() as usize];
+    let at = |per_mille: usize| best[(best.len() - 1) * per_mille / 1000];
     let row = Row {
         method,
         motion,
         faces: world.obstacles()[0].shape.topology().face_count(),
         segments: u32::try_from(world.tool().segments.len()).unwrap_or(u32::MAX),
         contact_ticks,
-        p50_ns: at(0.5),
-        p99_ns: at(0.99),
-        p999_ns: at(0.999),
-        max_ns: at(1.0),
+        p50_ns: at(500),
+        p99_ns: at(990),
+        p999_ns: at(999),
+        max_ns: at(1000),
     };
     let micro = |ns: u64| ns as f64 / 1000.0;
     println!(
