@@ -38,8 +38,8 @@ const TIP: DVec3 = DVec3::new(0.1, 0.0, 0.0);
 fn main() -> ExitCode {
     let scenes: Vec<String> = std::env::args().skip(1).collect();
     if scenes.is_empty() {
-        eprintln!("usage: make_trajectories SCENE.ron…");
-        return ExitCode::from(2);
+        eprintln!("name the scenes whose motions to write: make_trajectories scenes/*.ron");
+        return ExitCode::SUCCESS;
     }
     for scene in &scenes {
         if let Err(error) = make(Path::new(scene)) {
