@@ -57,6 +57,8 @@ pub struct Verdict {
     pub judged: u32,
     /// Largest force [N].
     pub max_force: f64,
+    /// Largest difference between the rendered force and the spring's, k (x − h) [N].
+    pub force_error: f64,
 }
 
 impl Verdict {
@@ -107,6 +109,10 @@ impl Verdict {
                 "{} of {} pairs overlap for parry3d-f64",
                 self.overlaps, self.judged
             ),
+        );
+        demand(
+            self.force_error <= 1e-9,
+            format!("force {:.2e} N off the coupling spring's", self.force_error),
         );
         demand(
             self.held_ticks == 0 || run.setting == Setting::Slot,
@@ -164,6 +170,11 @@ impl Verdict {
 
     fn watch(&mut self, world: &World, state: &State, whole: &ConvexMesh, output: &TickOutput) {
         self.penetration = self.penetration.max(visual_penetration(world, state));
+        let offset = output.world_from_visual.translation - output.world_from_haptic.translation;
+        let spring = offset * world.coupling().linear_stiffness;
+        self.force_error = self
+            .force_error
+            .max((output.wrench.force - spring).length());
         let tracker = state
             .constrained()
             .expect("campaigns use the constrained method");

@@ -1,7 +1,10 @@
 //! Invariants of rigid contact on planned motions: force steps, side kept, torque, segments, slots, start inside, damping.
 
+use std::path::Path;
+
 use glam::{DQuat, DVec3};
 use pliant_mesh::HalfEdgeMesh;
+use pliant_scene::{Disk, Scene};
 use pliant_sim::{
     Method, State, TickInput, TickOutput, VirtualCoupling, World, WorldDescription, tick,
     visual_penetration,
@@ -220,6 +223,26 @@ fn a_tool_turned_past_fit_in_a_slot_is_held_without_entering() {
     }
 }
 
+/// Jammed in a slot and pressed against one wall, both walls' planes hold: the other wall must not cancel the spring's force.
+#[test]
+fn a_jammed_tool_keeps_its_force() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/slot.ron");
+    let text = std::fs::read_to_string(&path).expect("the scene is shipped");
+    let scene = Scene::from_str(&text, &path.display().to_string()).expect("valid");
+    let built = scene.build(&Disk).expect("valid");
+    let hand = |t: f64| built.trajectory.sample(t).0;
+    let mut double_and_held = 0;
+    for output in play(&built.world, hand, 7000) {
+        double_and_held += u32::from(output.held && output.contacts == 2);
+        let offset = output.world_from_visual.translation - output.world_from_haptic.translation;
+        assert!((output.wrench.force - K * offset).length() < 1e-9);
+    }
+    assert!(
+        double_and_held > 50,
+        "{double_and_held} ticks held by both walls"
+    );
+}
+
 #[test]
 fn torque_is_steady_while_a_flat_tool_slides_on_a_face() {
     for segments in [1, 10] {
@@ -329,7 +352,7 @@ fn the_normal_force_of_a_damped_coupling_never_pulls() {
             };
             let output = tick(&world, &mut state, &input, PERIOD);
             force = output.wrench.force;
-            if let Some(contact) = output.contact {
+            if let (Some(contact), 1) = (output.contact, output.contacts) {
                 contact_ticks += 1;
                 let normal_force = force.dot(contact.normal);
                 assert!(

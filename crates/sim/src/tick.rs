@@ -120,7 +120,7 @@ pub fn tick(world: &World, state: &mut State, input: &TickInput, dt: f64) -> Tic
             let target = coupled_target(world, tracker.world_from_visual(), last, haptic, dt);
             let outcome =
                 tracker.advance(world.obstacles(), &world.tool().segments, &haptic, target);
-            Pressed::from_constrained(&outcome)
+            Pressed::from_constrained(&outcome, target)
         }
         Tracker::Paper(tracker) => {
             let outcome = tracker.advance(world.obstacles(), &world.tool().segments, &haptic);
@@ -164,12 +164,11 @@ struct Pressed {
 }
 
 impl Pressed {
-    fn from_constrained(outcome: &ConstrainedOutcome) -> Self {
-        let mut push = outcome.push;
-        // A damper that trails a turning normal could pull along an old one; contact never pulls.
-        for contact in outcome.contacts() {
-            push -= contact.normal * push.dot(contact.normal).min(0.0);
-        }
+    fn from_constrained(outcome: &ConstrainedOutcome, target: DVec3) -> Self {
+        // The reaction of all contacts together points from the target to the visual tool. Undamped, the spring does too; a damper that
+        // trails a turning normal could make it pull, and contact never pulls.
+        let reaction = (outcome.world_from_visual.translation - target).normalize_or_zero();
+        let push = outcome.push - reaction * outcome.push.dot(reaction).min(0.0);
         Self {
             world_from_visual: outcome.world_from_visual,
             contacts: outcome.contacts().map(|_| 1).sum(),
