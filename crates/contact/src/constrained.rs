@@ -22,7 +22,7 @@ use pliant_spatial::{Pose, rotation_vector};
 
 pub use cell::SKIN;
 use cell::{Bodies, Cell};
-use report::Reporter;
+use report::{Pull, Reporter};
 
 use crate::qp::{ActiveSet, nearest_point};
 use crate::{Contact, Obstacle};
@@ -131,13 +131,17 @@ impl ConstrainedTracker {
     }
 
     /// Kept unit normal (world, obstacle to tool) and certified gap [m] of a pair, for judges and drawings.
+    ///
+    /// # Panics
+    /// When there is no such obstacle or segment.
     pub fn separating_plane(&self, object: u32, segment: u32) -> (DVec3, f64) {
         let pair = self.cell.group(object as usize).start + segment as usize;
         (self.cell.pairs[pair].normal, self.cell.gap(pair))
     }
 
     /// One tick: the visual tool turns with `world_from_haptic` and moves to the free point nearest to `target`, which is the haptic
-    /// position or, with a damped coupling, the point the coupling pulls to. Allocates nothing.
+    /// position or, with a damped coupling, the point the coupling pulls to. A pose that is no placement, a target that is not finite, or
+    /// bodies of another number than at creation change nothing and press nothing. Allocates nothing.
     pub fn advance(
         &mut self,
         obstacles: &[Obstacle],
@@ -149,11 +153,15 @@ impl ConstrainedTracker {
             obstacles,
             segments,
         };
+        let usable = world_from_haptic.is_placement() && target.is_finite();
+        if !usable || !self.cell.fits(bodies) {
+            return self.outcome_without_contact();
+        }
         if !self.separated {
             let start = start::separate(&mut self.cell, bodies, *world_from_haptic);
             self.separated = start != start::Start::Inside;
             if !self.separated {
-                return self.outcome_inside();
+                return self.outcome_without_contact();
             }
         }
         let (held, active) = self.turn(bodies, world_from_haptic, target);
@@ -162,7 +170,10 @@ impl ConstrainedTracker {
             &mut self.cell,
             bodies,
             &search.active,
-            world_from_haptic.translation,
+            &Pull {
+                haptic: world_from_haptic.translation,
+                target,
+            },
         );
         ConstrainedOutcome {
             world_from_visual: self.cell.pose,
@@ -176,7 +187,12 @@ impl ConstrainedTracker {
         }
     }
 
-    fn outcome_inside(&self) -> ConstrainedOutcome {
+    /// Forgets which side of the obstacles the tool is on: the next tick places it anew, as at creation.
+    pub fn restart(&mut self) {
+        self.separated = false;
+    }
+
+    fn outcome_without_contact(&self) -> ConstrainedOutcome {
         ConstrainedOutcome {
             world_from_visual: self.cell.pose,
             contacts: [None; MAX_CONTACTS],
@@ -185,7 +201,7 @@ impl ConstrainedTracker {
             held: true,
             capped: false,
             rounds: 0,
-            inside: true,
+            inside: !self.separated,
         }
     }
 
@@ -232,28 +248,30 @@ impl ConstrainedTracker {
         wanted: DQuat,
         target: DVec3,
     ) -> Option<ActiveSet> {
-        let free = self.cell.pose.rotation;
-        self.cell.turn(bodies, wanted);
-        let turned = nearest_point(self.cell.planes(), target);
-        if let Some((position, active)) = turned {
-            let allowance = MAX_AMPLIFICATION * self.reach * rotation_angle(free, wanted);
-            // Without a turn the projection moves no farther than its target, so this holds in most ticks.
-            if (position - self.cell.pose.translation).length() <= allowance {
-                self.cell.pose.translation = position;
-                return Some(active);
-            }
-            self.cell.turn(bodies, free);
-            let unturned = nearest_point(self.cell.planes(), target)
-                .map_or(self.cell.pose.translation, |(position, _)| position);
-            if (position - unturned).length() <= allowance + STILL {
-                self.cell.turn(bodies, wanted);
-                self.cell.pose.translation = position;
-                return Some(active);
-            }
-        } else {
-            self.cell.turn(bodies, free);
+        let before = self.cell.pose;
+        let angle = rotation_vector(wanted * before.rotation.conjugate()).length();
+        if angle <= 0.0 {
+            return self.project(target);
         }
-        None
+        self.cell.save();
+        self.cell.turn(bodies, wanted);
+        let Some((position, active)) = nearest_point(self.cell.planes(), target) else {
+            self.cell.swap_saved();
+            return None;
+        };
+        let allowance = MAX_AMPLIFICATION * self.reach * angle;
+        if (position - before.translation).length() > allowance {
+            // The hand's own motion is no part of the turn: compare with where the tool would be without it.
+            self.cell.swap_saved();
+            let unturned = nearest_point(self.cell.planes(), target)
+                .map_or(before.translation, |(position, _)| position);
+            if (position - unturned).length() > allowance + STILL {
+                return None;
+            }
+            self.cell.swap_saved();
+        }
+        self.cell.pose.translation = position;
+        Some(active)
     }
 
     /// Moves to the point of the cell nearest to `target`; `None`, and no move, when rounding leaves the cell empty.
@@ -299,9 +317,4 @@ impl ConstrainedTracker {
             capped: true,
         }
     }
-}
-
-/// Angle between two orientations [rad].
-fn rotation_angle(a: DQuat, b: DQuat) -> f64 {
-    rotation_vector(b * a.conjugate()).length()
 }

@@ -65,12 +65,36 @@ impl ActiveSet {
             0 => [0.0; 3],
             1 => [n(0).dot(vector), 0.0, 0.0],
             2 => {
-                let cosine = n(0).dot(n(1));
-                let (p, q) = (n(0).dot(vector), n(1).dot(vector));
-                let scale = 1.0 / (1.0 - cosine * cosine);
-                [(p - cosine * q) * scale, (q - cosine * p) * scale, 0.0]
+                let axis = n(0).cross(n(1));
+                let scale = 1.0 / axis.length_squared();
+                [
+                    vector.cross(n(1)).dot(axis) * scale,
+                    n(0).cross(vector).dot(axis) * scale,
+                    0.0,
+                ]
             }
             _ => (DMat3::from_cols(n(0), n(1), n(2)).inverse() * vector).to_array(),
+        }
+    }
+
+    /// Steps along the active normals [m] that together move `point` onto all active planes.
+    fn multipliers_onto(&self, planes: &[Plane], point: DVec3) -> [f64; 3] {
+        let n = |slot: usize| planes[self.index[slot]].normal;
+        let lack = |slot: usize| planes[self.index[slot]].offset - n(slot).dot(point);
+        match self.len {
+            0 => [0.0; 3],
+            1 => [lack(0), 0.0, 0.0],
+            2 => {
+                let axis = n(0).cross(n(1));
+                let push = (n(1).cross(axis) * lack(0) + axis.cross(n(0)) * lack(1))
+                    / axis.length_squared();
+                self.coefficients(planes, push)
+            }
+            _ => {
+                let columns = DMat3::from_cols(n(0), n(1), n(2));
+                let push = columns.transpose().inverse() * DVec3::new(lack(0), lack(1), lack(2));
+                self.coefficients(planes, push)
+            }
         }
     }
 
@@ -84,10 +108,10 @@ impl ActiveSet {
             0 => true,
             1 => square > PARALLEL,
             2 => {
-                let cosine = planes[self.index[0]]
+                let axis = planes[self.index[0]]
                     .normal
-                    .dot(planes[self.index[1]].normal);
-                square * (1.0 - cosine * cosine) > COPLANAR * COPLANAR
+                    .cross(planes[self.index[1]].normal);
+                square * axis.length_squared() > COPLANAR * COPLANAR
             }
             _ => false,
         };
@@ -167,34 +191,17 @@ fn add_plane(planes: &[Plane], plane: usize, x: &mut DVec3, active: &mut ActiveS
     false
 }
 
-/// The point on all active planes nearest to the target, computed afresh so that steps leave no drift.
+/// The point on all active planes nearest to the target, computed afresh so that steps leave no drift. The second pass corrects what
+/// nearly parallel normals lose in the first.
 fn polish(planes: &[Plane], target: DVec3, active: &mut ActiveSet) -> DVec3 {
-    let lack = |slot: usize| {
-        let plane = &planes[active.index[slot]];
-        plane.offset - plane.normal.dot(target)
-    };
-    let n = |slot: usize| planes[active.index[slot]].normal;
-    let multiplier = match active.len {
-        0 => [0.0; 3],
-        1 => [lack(0), 0.0, 0.0],
-        2 => {
-            let cosine = n(0).dot(n(1));
-            let scale = 1.0 / (1.0 - cosine * cosine);
-            [
-                (lack(0) - cosine * lack(1)) * scale,
-                (lack(1) - cosine * lack(0)) * scale,
-                0.0,
-            ]
-        }
-        _ => {
-            let columns = DMat3::from_cols(n(0), n(1), n(2));
-            let push = columns.transpose().inverse() * DVec3::new(lack(0), lack(1), lack(2));
-            (columns.inverse() * push).to_array()
-        }
-    };
     let mut point = target;
-    for (slot, m) in multiplier.iter().enumerate().take(active.len) {
-        point += n(slot) * *m;
+    let mut multiplier = [0.0; 3];
+    for _ in 0..2 {
+        let more = active.multipliers_onto(planes, point);
+        for (slot, (sum, m)) in multiplier.iter_mut().zip(more).take(active.len).enumerate() {
+            *sum += m;
+            point += planes[active.index[slot]].normal * m;
+        }
     }
     active.multiplier = multiplier.map(|m| m.max(0.0));
     point
@@ -244,6 +251,25 @@ mod tests {
         let (x, active) = nearest_point(&planes, DVec3::new(-1.0, -2.0, -3.0)).expect("ok");
         assert!(x.length() < 1e-15);
         assert_eq!(active.iter().count(), 3);
+    }
+
+    #[test]
+    fn nearly_parallel_planes_hold_to_the_stated_violation() {
+        for angle in [1e-2_f64, 1e-4, 3e-5, 1e-6] {
+            let planes = [
+                plane([0.0, angle.sin(), angle.cos()], 0.0),
+                plane([0.0, -angle.sin(), angle.cos()], 0.0),
+            ];
+            let (x, _) = nearest_point(&planes, DVec3::new(0.3, 0.0, -5e-3)).expect("ok");
+            for p in &planes {
+                let slack = p.normal.dot(x) - p.offset;
+                assert!(slack >= -1e-12, "{angle}: {slack:e} m");
+            }
+            assert!(
+                (x - DVec3::new(0.3, 0.0, 0.0)).length() < 1e-7,
+                "{angle}: {x}"
+            );
+        }
     }
 
     proptest::proptest! {

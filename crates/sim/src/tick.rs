@@ -1,7 +1,7 @@
 //! One servo period.
 
 use glam::DVec3;
-use pliant_contact::{ConstrainedOutcome, ConstrainedTracker, Contact, PaperTracker};
+use pliant_contact::{ConstrainedOutcome, ConstrainedTracker, Contact, PaperTracker, SKIN};
 use pliant_spatial::{Pose, Wrench};
 
 use crate::{Method, World};
@@ -13,6 +13,8 @@ const RAMP_SECONDS: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub struct State {
     world_from_haptic: Pose,
+    /// A usable haptic pose has been seen.
+    placed: bool,
     tracker: Tracker,
     /// Part of the force that is rendered; below 1 only after a start inside an object.
     ramp: f64,
@@ -56,20 +58,28 @@ pub struct TickOutput {
 
 impl State {
     /// Both tools at the first haptic pose. Where the tool overlaps objects the visual tool is moved out at once and the force
-    /// rises from zero.
+    /// rises from zero. A pose that is no placement is taken as the identity until a tick brings a good one.
     pub fn new(world: &World, world_from_haptic: Pose) -> Self {
+        let placed = world_from_haptic.is_placement();
+        let world_from_haptic = if placed {
+            world_from_haptic.normalized()
+        } else {
+            Pose::IDENTITY
+        };
         let (obstacles, segments) = (world.obstacles(), &world.tool().segments[..]);
         match world.method() {
             Method::Constrained => {
                 let tracker = ConstrainedTracker::new(obstacles, segments, world_from_haptic);
                 Self {
                     world_from_haptic,
+                    placed,
                     ramp: if tracker.started_inside() { 0.0 } else { 1.0 },
                     tracker: Tracker::Constrained(Box::new(tracker)),
                 }
             }
             Method::Paper(parameters) => Self {
                 world_from_haptic,
+                placed,
                 ramp: 1.0,
                 tracker: Tracker::Paper(Box::new(PaperTracker::new(
                     obstacles,
@@ -106,35 +116,45 @@ impl State {
     }
 }
 
-/// Moves `state` by one period of `dt` seconds. A pose that is not finite is replaced by the last one. Allocates nothing.
+/// Moves `state` by one period of `dt` seconds. A pose that is no placement (not finite, or no unit quaternion) is replaced by the last
+/// good one, a `dt` that is not positive counts as 0. `state` belongs to `world`. Allocates nothing.
 pub fn tick(world: &World, state: &mut State, input: &TickInput, dt: f64) -> TickOutput {
+    let dt = if dt.is_finite() { dt.max(0.0) } else { 0.0 };
     let last = state.world_from_haptic;
-    let haptic = if input.world_from_haptic.is_finite() {
-        input.world_from_haptic
+    let haptic = if input.world_from_haptic.is_placement() {
+        input.world_from_haptic.normalized()
     } else {
         last
     };
     state.world_from_haptic = haptic;
     let pressed = match &mut state.tracker {
         Tracker::Constrained(tracker) => {
-            let target = coupled_target(world, tracker.world_from_visual(), last, haptic, dt);
+            let target = if !state.placed && input.world_from_haptic.is_placement() {
+                tracker.restart();
+                state.ramp = 0.0;
+                haptic.translation
+            } else {
+                coupled_target(world, tracker.world_from_visual(), last, haptic, dt)
+            };
             let outcome =
                 tracker.advance(world.obstacles(), &world.tool().segments, &haptic, target);
-            Pressed::from_constrained(&outcome, target)
+            Pressed::from_constrained(&outcome)
         }
         Tracker::Paper(tracker) => {
             let outcome = tracker.advance(world.obstacles(), &world.tool().segments, &haptic);
             Pressed::from_paper(outcome.world_from_visual, outcome.contact, &haptic)
         }
     };
+    state.placed |= input.world_from_haptic.is_placement();
+    let output = output(world, &pressed, &haptic, state.ramp);
     state.ramp = if pressed.inside {
         0.0
-    } else if pressed.contacts == 0 {
+    } else if output.penetration_of_haptic < SKIN {
         1.0
     } else {
         (state.ramp + dt / RAMP_SECONDS).min(1.0)
     };
-    output(world, &pressed, &haptic, state.ramp)
+    output
 }
 
 /// Where the coupling pulls the visual tool: the haptic position, delayed by the damper. The position that minimises
@@ -145,9 +165,9 @@ fn coupled_target(world: &World, visual: Pose, last: Pose, haptic: Pose, dt: f64
         return haptic.translation;
     }
     let k = coupling.linear_stiffness;
-    let rate = coupling.linear_damping / dt;
+    let b = coupling.linear_damping;
     let offset = visual.translation - last.translation;
-    haptic.translation + offset * (rate / (k + rate))
+    haptic.translation + offset * (b / (k * dt + b))
 }
 
 /// What a method found, before stiffness.
@@ -164,16 +184,12 @@ struct Pressed {
 }
 
 impl Pressed {
-    fn from_constrained(outcome: &ConstrainedOutcome, target: DVec3) -> Self {
-        // The reaction of all contacts together points from the target to the visual tool. Undamped, the spring does too; a damper that
-        // trails a turning normal could make it pull, and contact never pulls.
-        let reaction = (outcome.world_from_visual.translation - target).normalize_or_zero();
-        let push = outcome.push - reaction * outcome.push.dot(reaction).min(0.0);
+    fn from_constrained(outcome: &ConstrainedOutcome) -> Self {
         Self {
             world_from_visual: outcome.world_from_visual,
             contacts: outcome.contacts().map(|_| 1).sum(),
             contact: outcome.contacts().next().copied(),
-            push,
+            push: outcome.push,
             moment: outcome.moment,
             held: outcome.held,
             capped: outcome.capped,
@@ -199,6 +215,7 @@ impl Pressed {
 
 fn output(world: &World, pressed: &Pressed, haptic: &Pose, ramp: f64) -> TickOutput {
     let k = world.coupling().linear_stiffness;
+    let offset = pressed.world_from_visual.translation - haptic.translation;
     TickOutput {
         world_from_haptic: *haptic,
         world_from_visual: pressed.world_from_visual,
@@ -208,9 +225,9 @@ fn output(world: &World, pressed: &Pressed, haptic: &Pose, ramp: f64) -> TickOut
         },
         contacts: pressed.contacts,
         contact: pressed.contact,
-        penetration_of_haptic: pressed.push.length(),
+        penetration_of_haptic: offset.length(),
         held: pressed.held,
         capped: pressed.capped,
-        coupling_energy: 0.5 * k * pressed.push.length_squared(),
+        coupling_energy: 0.5 * k * offset.length_squared(),
     }
 }

@@ -78,6 +78,17 @@ impl Pose {
     pub fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }
+
+    /// Finite, and the quaternion's length within 1e-3 of one: [`Pose::normalized`] then loses nothing that was meant.
+    pub fn is_placement(&self) -> bool {
+        self.is_finite() && (self.rotation.length() - 1.0).abs() <= 1e-3
+    }
+
+    /// With the quaternion brought to unit length.
+    #[must_use]
+    pub fn normalized(&self) -> Self {
+        Self::new(self.rotation.normalize(), self.translation)
+    }
 }
 
 impl Mul for Pose {
@@ -142,6 +153,16 @@ mod tests {
         let both = sample() * other;
         let expected = sample().transform_point(other.transform_point(p));
         assert!((both.transform_point(p) - expected).length() < 1e-15);
+    }
+
+    #[test]
+    fn only_finite_nearly_unit_poses_are_placements() {
+        let scaled = |factor: f64| Pose::new(sample().rotation * factor, sample().translation);
+        assert!(sample().is_placement() && scaled(1.0005).is_placement());
+        assert!(!scaled(0.5).is_placement() && !scaled(0.0).is_placement());
+        assert!(!Pose::from_translation(DVec3::NAN).is_placement());
+        assert!(!Pose::from_rotation(DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0)).is_placement());
+        assert!((scaled(1.0005).normalized().rotation.length() - 1.0).abs() < 1e-15);
     }
 
     #[test]

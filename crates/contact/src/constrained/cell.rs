@@ -59,6 +59,8 @@ pub(crate) struct Cell {
     round: u64,
     queue: Vec<usize>,
     planes: Vec<Plane>,
+    saved: Vec<Pair>,
+    saved_rotation: DQuat,
 }
 
 impl Cell {
@@ -78,11 +80,31 @@ impl Cell {
         Self {
             pose,
             pairs: (0..count).map(|leader| Pair { leader, ..blank }).collect(),
+            saved: vec![blank; count],
+            saved_rotation: pose.rotation,
             segment_count: bodies.segments.len(),
             round: 0,
             queue: Vec::with_capacity(count),
             planes: Vec::with_capacity(count),
         }
+    }
+
+    /// The bodies are as many as at creation.
+    pub(crate) fn fits(&self, bodies: Bodies<'_>) -> bool {
+        bodies.segments.len() == self.segment_count
+            && bodies.obstacles.len() * self.segment_count == self.pairs.len()
+    }
+
+    /// Keeps a copy of the planes and the orientation.
+    pub(crate) fn save(&mut self) {
+        self.saved.copy_from_slice(&self.pairs);
+        self.saved_rotation = self.pose.rotation;
+    }
+
+    /// Exchanges planes and orientation with the kept copy.
+    pub(crate) fn swap_saved(&mut self) {
+        std::mem::swap(&mut self.saved, &mut self.pairs);
+        std::mem::swap(&mut self.saved_rotation, &mut self.pose.rotation);
     }
 
     pub(crate) fn obstacle_of(&self, pair: usize) -> usize {
@@ -334,35 +356,38 @@ impl Cell {
         self.gap_along(bodies, pair, leader) >= self.gap(leader) - COVERED
     }
 
-    /// Closest points of one pair; the normal is taken over only if finite and certified by a support gap of at least ε/4
-    /// (contact.5), else the kept one stays.
+    /// Closest points of one pair suggest a normal.
     fn detect(&mut self, bodies: Bodies<'_>, pair: usize) {
         let obstacle = &bodies.obstacles[self.obstacle_of(pair)];
         let segment = &bodies.segments[self.segment_of(pair)];
         let object_from_visual = obstacle.world_from_object.inverse() * self.pose;
-        let cache = &mut self.pairs[pair].cache;
+        let entry = &mut self.pairs[pair];
+        entry.leader = pair;
+        let cache = &mut entry.cache;
         let Some(closest) = distance(&obstacle.shape, segment, &object_from_visual, cache) else {
             return;
         };
         let normal = obstacle.world_from_object.transform_vector(closest.normal);
-        if !normal.is_finite() {
-            return;
-        }
-        let kept = self.pairs[pair];
-        self.set_normal(bodies, pair, normal.normalize());
-        self.pairs[pair].leader = pair;
-        if self.gap(pair) >= ACCEPTED_GAP {
+        if self.accept(bodies, pair, normal) {
             self.pairs[pair].witness = obstacle
                 .world_from_object
                 .transform_point(0.5 * (closest.witness_a + closest.witness_b));
-        } else {
-            let Pair { cache, leader, .. } = self.pairs[pair];
-            self.pairs[pair] = Pair {
-                cache,
-                leader,
-                ..kept
-            };
         }
+    }
+
+    /// Takes a normal over if it is finite and two support calls certify a gap of at least ε/4 along it (contact.5); otherwise the kept
+    /// one, still certified, stays.
+    fn accept(&mut self, bodies: Bodies<'_>, pair: usize, normal: DVec3) -> bool {
+        let Some(normal) = normal.try_normalize() else {
+            return false;
+        };
+        let kept = self.pairs[pair];
+        self.set_normal(bodies, pair, normal);
+        let accepted = self.gap(pair) >= ACCEPTED_GAP;
+        if !accepted {
+            self.pairs[pair] = kept;
+        }
+        accepted
     }
 
     /// Smallest certified gap over all pairs [m].
@@ -392,3 +417,6 @@ pub(crate) fn segment_bound(
     let support = segment.support(-local, start);
     (local.dot(support.point), support.index)
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,6 +19,13 @@ pub(crate) struct Report {
     pub(crate) moment: DVec3,
 }
 
+/// Where the coupling starts and where it pulls to [m]; the same point unless the coupling is damped.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pull {
+    pub(crate) haptic: DVec3,
+    pub(crate) target: DVec3,
+}
+
 /// Labels kept from tick to tick, and scratch.
 #[derive(Clone, Debug)]
 pub(crate) struct Reporter {
@@ -49,15 +56,20 @@ impl Reporter {
         }
     }
 
-    /// Contacts of the pressing planes and the load they put on the haptic handle at `haptic` [m].
+    /// Contacts of the pressing planes and the load they put on the haptic handle.
     pub(crate) fn report(
         &mut self,
         cell: &mut Cell,
         bodies: Bodies<'_>,
         active: &ActiveSet,
-        haptic: DVec3,
+        pull: &Pull,
     ) -> Report {
-        let push = cell.pose.translation - haptic;
+        let visual = cell.pose.translation;
+        // The reaction of all contacts together points from the target to the visual tool. Undamped, the spring does too; a damper that
+        // trails a turning normal could make it pull, and contact never pulls.
+        let reaction = (visual - pull.target).normalize_or_zero();
+        let spring = visual - pull.haptic;
+        let push = spring - reaction * spring.dot(reaction).min(0.0);
         let mut contacts = [None; MAX_CONTACTS];
         let mut normals = [DVec3::ZERO; MAX_CONTACTS];
         let mut count = 0;
@@ -72,7 +84,7 @@ impl Reporter {
             contact.share = share;
         }
         let rendered = self.shaded(bodies, &contacts, push);
-        let moment = moment(&contacts, rendered, haptic);
+        let moment = moment(&contacts, rendered, pull.haptic);
         contacts[..count].sort_unstable_by(|a, b| {
             let share = |c: &Option<Contact>| c.map_or(0.0, |c| c.share);
             share(b).total_cmp(&share(a))
@@ -227,7 +239,9 @@ impl Reporter {
             );
             turned += contact.share * (pose.transform_vector(normal) - contact.normal);
         }
-        turned.normalize_or_zero() * push.length()
+        turned
+            .try_normalize()
+            .map_or(push, |direction| direction * push.length())
     }
 }
 
