@@ -150,82 +150,49 @@ fn a_period_that_is_no_time_changes_nothing() {
     assert!((output.wrench.force.z - 2.0).abs() < 1e-3);
 }
 
+fn refuse(change: impl FnOnce(&mut WorldDescription)) -> WorldError {
+    let mut description = description();
+    change(&mut description);
+    World::new(description).expect_err("out of range")
+}
+
 #[test]
-fn descriptions_out_of_range_are_refused_by_name() {
-    let refuse = |change: &dyn Fn(&mut WorldDescription)| {
-        let mut description = description();
-        change(&mut description);
-        World::new(description).expect_err("out of range")
-    };
-    assert_eq!(refuse(&|d| d.tool.segments.clear()), WorldError::NoSegments);
-    let good = VirtualCoupling::default();
-    for (expected, coupling) in [
-        (
-            "linear_stiffness",
-            VirtualCoupling {
-                linear_stiffness: 0.0,
-                ..good
-            },
-        ),
-        (
-            "linear_stiffness",
-            VirtualCoupling {
-                linear_stiffness: f64::NAN,
-                ..good
-            },
-        ),
-        (
-            "angular_stiffness",
-            VirtualCoupling {
-                angular_stiffness: 2.0,
-                ..good
-            },
-        ),
-        (
-            "linear_damping",
-            VirtualCoupling {
-                linear_damping: -1.0,
-                ..good
-            },
-        ),
-        (
-            "angular_damping",
-            VirtualCoupling {
-                angular_damping: f64::INFINITY,
-                ..good
-            },
-        ),
-    ] {
-        let error = refuse(&|d| d.coupling = coupling);
+fn couplings_out_of_range_are_refused_by_name() {
+    type Change = fn(&mut VirtualCoupling);
+    let cases: [(&str, Change); 5] = [
+        ("linear_stiffness", |c| c.linear_stiffness = 0.0),
+        ("linear_stiffness", |c| c.linear_stiffness = f64::NAN),
+        ("angular_stiffness", |c| c.angular_stiffness = 2.0),
+        ("linear_damping", |c| c.linear_damping = -1.0),
+        ("angular_damping", |c| c.angular_damping = f64::INFINITY),
+    ];
+    for (expected, change) in cases {
+        let error = refuse(|d| change(&mut d.coupling));
         assert!(
             matches!(error, WorldError::Coupling { name, .. } if name == expected),
             "{error}"
         );
     }
-    let paper = |edge_width, detection_interval| {
-        refuse(&|d| {
-            d.method = Method::Paper(PaperParameters {
-                edge_width,
-                detection_interval,
-            });
-        })
-    };
-    assert!(matches!(
-        paper(-1e-4, 1),
-        WorldError::Paper {
-            name: "edge_width",
-            ..
-        }
-    ));
-    assert!(matches!(
-        paper(1e-4, 0),
-        WorldError::Paper {
-            name: "detection_interval",
-            ..
-        }
-    ));
-    let error = refuse(&|d| d.objects[0].shading_threshold = Some(0.0));
+}
+
+#[test]
+fn tools_objects_and_methods_out_of_range_are_refused() {
+    assert_eq!(refuse(|d| d.tool.segments.clear()), WorldError::NoSegments);
+    for (edge_width, detection_interval, expected) in
+        [(-1e-4, 1, "edge_width"), (1e-4, 0, "detection_interval")]
+    {
+        let parameters = PaperParameters {
+            edge_width,
+            detection_interval,
+        };
+        let error = refuse(|d| d.method = Method::Paper(parameters));
+        assert!(
+            matches!(error, WorldError::Paper { name, .. } if name == expected),
+            "{error}"
+        );
+    }
+    let error = refuse(|d| d.objects[0].shading_threshold = Some(0.0));
     assert!(matches!(error, WorldError::Shading { .. }), "{error}");
-    let error = refuse(&|d| d.objects[0].world_from_object.rotation *= 2.0);
+    let error = refuse(|d| d.objects[0].world_from_object.rotation = DQuat::IDENTITY * 2.0);
     assert!(error.to_string().contains("\"table\""), "{error}");
 }
