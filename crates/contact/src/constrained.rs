@@ -231,7 +231,8 @@ impl ConstrainedTracker {
             } else if refreshed {
                 part *= 0.5;
             } else {
-                // Normals of planes that were slack may be stale: they forbid more than the obstacles do.
+                // Normals of planes that were slack may be stale: they forbid more than the obstacles do. Fresh ones end one in eleven
+                // holds in slots.
                 self.cell.refresh_all(bodies);
                 refreshed = true;
             }

@@ -21,8 +21,6 @@ const ACCEPTED_GAP: f64 = SKIN / 4.0;
 const COVERED: f64 = 1e-11;
 /// Cosine of half the largest turn (0.05 rad, five times what a fast hand turns in a tick) along which normals may follow the tool.
 const SMALL_TURN_COSINE: f64 = 0.999_687_5;
-/// Leaders whose gaps differ by less than this [m] are tried in both orders.
-const TIE: f64 = 1e-9;
 
 /// Borrowed geometry of one tick.
 #[derive(Clone, Copy)]
@@ -316,20 +314,8 @@ impl Cell {
                 self.adopt(bodies, pair, leader);
                 continue;
             }
-            // A leader of the same gap that this pair covers was only first by rounding: it gives way.
-            let mut kept = 0;
-            for index in 0..leaders {
-                let leader = queue[index];
-                let tied = self.gap(leader) + TIE >= self.gap(pair);
-                if tied && self.covers(bodies, pair, leader) {
-                    self.adopt(bodies, leader, pair);
-                } else {
-                    queue.swap(kept, index);
-                    kept += 1;
-                }
-            }
-            queue.swap(kept, slot);
-            leaders = kept + 1;
+            queue.swap(leaders, slot);
+            leaders += 1;
         }
         for other in self.group(obstacle) {
             if self.pairs[other].round == self.round {
