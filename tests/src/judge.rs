@@ -1,65 +1,39 @@
-//! Judges that share no code with the solver they judge.
+//! Judges of a solved tick.
+//!
+//! [`gap_along`] and [`height_above`] read nothing but vertices. [`fresh_planes`] asks the project's own closest-point query, which the solver also
+//! asks, but from scratch and with the uncut tool; [`cone_residual`] judges its planes by enumeration. The judge that shares no code with
+//! the solver is [`ParryJudge`](crate::parry::ParryJudge).
 
 use glam::DVec3;
-use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
-use parry3d_f64::query;
-use parry3d_f64::shape::ConvexPolyhedron;
 use pliant_collision::{SimplexCache, closest_points};
 use pliant_contact::{Obstacle, SKIN};
 use pliant_mesh::ConvexMesh;
-use pliant_sim::World;
 use pliant_spatial::Pose;
 
-/// Overlap tests by `parry3d-f64`, an independent collision library.
-pub struct ParryJudge {
-    objects: Vec<(ParryPose, ConvexPolyhedron)>,
-    segments: Vec<ConvexPolyhedron>,
+/// Largest n·p over the vertices of an object in the world [m].
+fn top(obstacle: &Obstacle, normal: DVec3) -> f64 {
+    obstacle
+        .shape
+        .positions()
+        .iter()
+        .map(|p| normal.dot(obstacle.world_from_object.transform_point(*p)))
+        .fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn parry_vector(v: DVec3) -> Vector {
-    Vector::new(v.x, v.y, v.z)
+/// Gap between an object and a segment of the tool at `visual` along the unit world normal `normal`, object to tool [m]: over all vertices of
+/// both, in the world.
+pub fn gap_along(obstacle: &Obstacle, segment: &ConvexMesh, visual: &Pose, normal: DVec3) -> f64 {
+    let bottom = segment
+        .positions()
+        .iter()
+        .map(|p| normal.dot(visual.transform_point(*p)))
+        .fold(f64::INFINITY, f64::min);
+    bottom - top(obstacle, normal)
 }
 
-fn parry_pose(pose: &Pose) -> ParryPose {
-    let q = pose.rotation;
-    ParryPose::from_parts(
-        parry_vector(pose.translation),
-        Rotation::from_xyzw(q.x, q.y, q.z, q.w),
-    )
-}
-
-fn parry_mesh(mesh: &ConvexMesh) -> ConvexPolyhedron {
-    let points: Vec<Vector> = mesh.positions().iter().copied().map(parry_vector).collect();
-    ConvexPolyhedron::from_convex_hull(&points).expect("a convex mesh has a hull")
-}
-
-impl ParryJudge {
-    /// Copies the world's shapes.
-    ///
-    /// # Panics
-    /// When `parry3d-f64` refuses the hull of a convex mesh.
-    pub fn new(world: &World) -> Self {
-        Self {
-            objects: world
-                .obstacles()
-                .iter()
-                .map(|o| (parry_pose(&o.world_from_object), parry_mesh(&o.shape)))
-                .collect(),
-            segments: world.tool().segments.iter().map(parry_mesh).collect(),
-        }
-    }
-
-    /// Object and segment overlap when the tool is displaced by `shift` [m].
-    ///
-    /// # Panics
-    /// When `parry3d-f64` does not support the pair, which it does for convex polyhedra.
-    pub fn overlaps(&self, object: usize, segment: usize, visual: &Pose, shift: DVec3) -> bool {
-        let moved = Pose::new(visual.rotation, visual.translation + shift);
-        let (pose, shape) = &self.objects[object];
-        query::intersection_test(pose, shape, &parry_pose(&moved), &self.segments[segment])
-            .expect("convex polyhedra are supported")
-            .intersecting
-    }
+/// Height of a world point over an object's supporting plane of unit world normal `normal` [m].
+pub fn height_above(obstacle: &Obstacle, normal: DVec3, point: DVec3) -> f64 {
+    normal.dot(point) - top(obstacle, normal)
 }
 
 /// A plane from a fresh query: unit normal out of the object, gap of the whole tool [m].
@@ -138,8 +112,11 @@ fn residual_of_two(a: DVec3, b: DVec3, axis: DVec3, push: DVec3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{FreshPlane, cone_residual};
-    use glam::DVec3;
+    use super::{FreshPlane, cone_residual, gap_along, height_above};
+    use glam::{DQuat, DVec3};
+    use pliant_contact::Obstacle;
+    use pliant_mesh::{ConvexMesh, generate};
+    use pliant_spatial::Pose;
 
     fn touching(normal: DVec3) -> FreshPlane {
         FreshPlane {
@@ -165,5 +142,25 @@ mod tests {
             let residual = cone_residual(planes, push);
             assert!((residual - expected).abs() < 1e-15, "{push}: {residual}");
         }
+    }
+
+    #[test]
+    fn gaps_and_heights_are_those_of_displaced_cubes() {
+        let cube = ConvexMesh::from_triangles(&generate::cuboid(DVec3::splat(0.5)).expect("size"))
+            .expect("convex");
+        let turn = DQuat::from_rotation_z(0.7);
+        let obstacle = Obstacle {
+            shape: cube.clone(),
+            world_from_object: Pose::new(turn, DVec3::new(3.0, -2.0, 1.0)),
+            shading_threshold: None,
+        };
+        let normal = turn * DVec3::X;
+        let centre = obstacle.world_from_object.translation;
+        for gap in [1e-7, -0.25] {
+            let visual = Pose::new(turn, centre + normal * (1.0 + gap));
+            assert!((gap_along(&obstacle, &cube, &visual, normal) - gap).abs() < 1e-15);
+        }
+        let point = centre + normal * 0.75 + turn * DVec3::Y;
+        assert!((height_above(&obstacle, normal, point) - 0.25).abs() < 1e-15);
     }
 }

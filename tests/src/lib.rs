@@ -5,3 +5,5 @@ pub mod campaign;
 pub mod hand;
 pub mod judge;
 pub mod motion;
+pub mod parry;
+pub mod skip;

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     let Subject::Contact = subject;
     let runs = if full { full_runs() } else { short_runs() };
     println!(
-        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8} {:>8} {:>8} {:>8} {:>7} {:>6}",
+        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>7} {:>6}",
         "setting",
         "tool",
         "n",
@@ -39,6 +39,10 @@ fn main() -> ExitCode {
         "cert.",
         "gap",
         "resid.",
+        "vertices",
+        "parry",
+        "off",
+        "lever",
         "force N",
         "s"
     );
@@ -67,7 +71,7 @@ fn main() -> ExitCode {
 
 fn print_row(run: &Run, v: &Verdict, seconds: f64) {
     println!(
-        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>7.1} {:>6.1}",
+        "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>8.1e} {:>6.3} {:>7.1} {:>6.1}",
         format!("{:?}", run.setting),
         format!("{:?}", run.tool),
         run.segments,
@@ -80,6 +84,10 @@ fn print_row(run: &Run, v: &Verdict, seconds: f64) {
         v.smallest_certificate,
         v.largest_contact_gap,
         v.residual,
+        v.smallest_gap,
+        v.parry_gap[1],
+        v.contact_off_bodies,
+        v.largest_lever,
         v.max_force,
         seconds
     );
