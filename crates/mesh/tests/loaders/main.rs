@@ -11,17 +11,23 @@ mod damage;
 mod documents;
 mod files;
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use pliant_mesh::load::{self, LoadError, Loaded};
 use pliant_mesh::{TriangleMesh, generate};
 
-/// The data folder, or a message about how many cases are skipped without it.
+/// The data folder, or a message about how many cases are skipped without it, written past the test harness, which swallows what a passing
+/// test prints.
 fn data(cases: usize) -> Option<PathBuf> {
     let folder = std::env::var_os("PLIANT_DATA").map(PathBuf::from);
     if folder.is_none() {
-        println!("PLIANT_DATA is not set: {cases} cases skipped");
+        writeln!(
+            std::io::stderr(),
+            "skipped {cases} cases: PLIANT_DATA is not set"
+        )
+        .expect("standard error is open");
     }
     folder
 }
