@@ -25,7 +25,8 @@ pub struct Object {
     pub shading_threshold: Option<f64>,
 }
 
-/// Spring-damper between the haptic tool and the visual tool. Only the spring part is rendered.
+/// Spring-damper between the haptic tool and the visual tool. Only the spring part is rendered: damping leaves the steady force as it is,
+/// and after release the visual tool lags and the force decays over b/k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VirtualCoupling {
     /// [N/m], positive.
