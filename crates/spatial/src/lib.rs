@@ -8,3 +8,7 @@ mod wrench;
 
 pub use pose::{Pose, quaternion_from_rotation_vector, rotation_vector};
 pub use wrench::{Twist, Wrench};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

@@ -125,7 +125,7 @@ impl Cell {
     }
 
     /// Gap of `pair` along the normal of `leader`, both of one obstacle [m].
-    pub(crate) fn gap_along(&mut self, bodies: Bodies<'_>, pair: usize, leader: usize) -> f64 {
+    pub(crate) fn gap_along(&self, bodies: Bodies<'_>, pair: usize, leader: usize) -> f64 {
         let Pair {
             normal,
             obstacle_bound,
@@ -306,40 +306,31 @@ impl Cell {
         let mut leaders = 0;
         for slot in 0..queue.len() {
             let pair = queue[slot];
-            let covered = queue[..leaders]
-                .iter()
-                .copied()
-                .find(|&leader| self.covers(bodies, leader, pair));
-            if let Some(leader) = covered {
-                self.adopt(bodies, pair, leader);
-                continue;
+            if !self.adopt_from(bodies, &queue[..leaders], pair) {
+                queue.swap(leaders, slot);
+                leaders += 1;
             }
-            queue.swap(leaders, slot);
-            leaders += 1;
         }
         for other in self.group(obstacle) {
-            if self.pairs[other].round == self.round {
-                continue;
-            }
-            let covering = queue[..leaders]
-                .iter()
-                .copied()
-                .find(|&leader| self.covers(bodies, leader, other));
-            if let Some(leader) = covering {
-                self.adopt(bodies, other, leader);
+            let is_decided = self.pairs[other].round == self.round;
+            if !is_decided && self.adopt_from(bodies, &queue[..leaders], other) {
                 self.pairs[other].round = self.round;
             }
         }
         self.queue = queue;
     }
 
-    fn adopt(&mut self, bodies: Bodies<'_>, pair: usize, leader: usize) {
-        self.set_normal(bodies, pair, self.pairs[leader].normal);
-        self.pairs[pair].leader = leader;
-    }
-
-    fn covers(&mut self, bodies: Bodies<'_>, leader: usize, pair: usize) -> bool {
-        self.gap_along(bodies, pair, leader) >= self.gap(leader) - COVERED
+    /// Gives `pair` the normal of the first leader whose plane keeps it out too; whether there is one.
+    fn adopt_from(&mut self, bodies: Bodies<'_>, leaders: &[usize], pair: usize) -> bool {
+        let covering = leaders
+            .iter()
+            .copied()
+            .find(|&leader| self.gap_along(bodies, pair, leader) >= self.gap(leader) - COVERED);
+        if let Some(leader) = covering {
+            self.set_normal(bodies, pair, self.pairs[leader].normal);
+            self.pairs[pair].leader = leader;
+        }
+        covering.is_some()
     }
 
     /// Closest points of one pair suggest a normal.
