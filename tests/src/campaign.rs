@@ -228,9 +228,9 @@ impl Verdict {
         let force = output.wrench.force.length();
         self.max_force = self.max_force.max(force);
         if output.contacts > 0 {
-            // The smallest force [N] whose lever is more than rounding.
+            // Below 1e-6 N a lever is rounding.
             let lever = output.wrench.torque.length() / force.max(1e-6);
-            self.largest_lever = self.largest_lever.max(lever);
+            self.largest_lever = larger(self.largest_lever, lever);
         }
     }
 
@@ -238,9 +238,8 @@ impl Verdict {
         self.penetration = self.penetration.max(visual_penetration(world, state));
         let offset = output.world_from_visual.translation - output.world_from_haptic.translation;
         let spring = offset * world.coupling().linear_stiffness;
-        self.force_error = self
-            .force_error
-            .max((output.wrench.force - spring).length());
+        let force_error = (output.wrench.force - spring).length();
+        self.force_error = larger(self.force_error, force_error);
         let tracker = state
             .constrained()
             .expect("campaigns use the constrained method");
@@ -295,6 +294,11 @@ impl Verdict {
             self.parry_gap = [smallest.min(nearest), largest.max(nearest)];
         }
     }
+}
+
+/// The larger of two lengths; what is not a number fails every demand.
+fn larger(a: f64, b: f64) -> f64 {
+    if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
 fn reach(setting: Setting) -> DVec3 {
