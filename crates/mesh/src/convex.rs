@@ -5,6 +5,7 @@ mod check;
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::digits::{number, point};
 use crate::hull::{HullError, convex_hull};
 use crate::{Aabb, EdgeId, FaceId, HalfEdgeMesh, TopologyError, TriangleMesh, VertexId};
 
@@ -16,17 +17,21 @@ use crate::{Aabb, EdgeId, FaceId, HalfEdgeMesh, TopologyError, TriangleMesh, Ver
 /// support distance: 1 µm on a tool of 0.1 m.
 pub const CONVEXITY_TOLERANCE: f64 = 1e-5;
 
-/// Why a mesh is not a convex solid. Lengths in the unit of the mesh (metres below scene files).
+/// What helps with every mesh that encloses a volume.
+const USE_HULL: &str = "use its hull (`convex_hull: true` in a scene, `ConvexMesh::hull` in code)";
+
+/// Why a mesh is not a convex solid. Lengths in the unit of the mesh (metres below scene files), which its texts
+/// cannot name; they are rounded to five digits there.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ConvexityError {
     /// The triangles are no manifold.
-    #[error("not a manifold: {0}; or set `convex_hull: true` to use the hull of its points")]
+    #[error("not a manifold: {0}; or {USE_HULL}")]
     Topology(#[from] TopologyError),
     /// There are borders.
     #[error(
         "the surface is open: it has {loops} border loop(s), one along the edge from {} to {}; \
-         close it or set `convex_hull: true`",
-        .edge[0], .edge[1]
+         close it or {USE_HULL}",
+        point(.edge[0]), point(.edge[1])
     )]
     Open {
         /// Number of border loops.
@@ -35,25 +40,24 @@ pub enum ConvexityError {
         edge: [DVec3; 2],
     },
     /// Several pieces.
-    #[error(
-        "the mesh has {shells} separate shells: use one object per shell or set `convex_hull: true`"
-    )]
+    #[error("the mesh has {shells} separate shells: use one object per shell or {USE_HULL}")]
     Shells {
         /// Number of pieces.
         shells: usize,
     },
     /// Triangles face inwards.
     #[error(
-        "the mesh is inside out: its signed volume is {volume:e} m³; reverse the winding of its triangles \
-         or set `convex_hull: true`"
+        "the mesh is inside out: its signed volume is {}; reverse the winding of its triangles or {USE_HULL}",
+        number(*.volume)
     )]
     InsideOut {
-        /// Signed volume [m³].
+        /// Signed volume [unit³].
         volume: f64,
     },
     /// No inside.
     #[error(
-        "the mesh is flat: {thickness:e} m thick over a size of {size:e} m; it encloses no volume"
+        "the mesh is flat: {} thick over a size of {}; it encloses no volume",
+        number(*.thickness), number(*.size)
     )]
     Flat {
         /// Volume over area [m].
@@ -63,9 +67,10 @@ pub enum ConvexityError {
     },
     /// An edge is concave.
     #[error(
-        "edge {edge} between {} and {} is concave: vertex {vertex} beyond it is {height:e} m above the plane \
-         of face {face}, tolerance {tolerance:e} m; set `convex_hull: true` to use the hull",
-        .ends[0], .ends[1], edge = .edge.0, vertex = .vertex.0, face = .face.0
+        "edge {edge} between {} and {} is concave: vertex {vertex} beyond it is {} above the plane of face {face}, \
+         tolerance {}; {USE_HULL}",
+        point(.ends[0]), point(.ends[1]), number(*.height), number(*.tolerance),
+        edge = .edge.0, vertex = .vertex.0, face = .face.0
     )]
     ConcaveEdge {
         /// The most concave edge.
@@ -83,8 +88,8 @@ pub enum ConvexityError {
     },
     /// A vertex lies above a face that is not next to it.
     #[error(
-        "vertex {vertex} at {position} is {height:e} m above the plane of face {face}, tolerance \
-         {tolerance:e} m; set `convex_hull: true` to use the hull",
+        "vertex {vertex} at {} is {} above the plane of face {face}, tolerance {}; {USE_HULL}",
+        point(*.position), number(*.height), number(*.tolerance),
         vertex = .vertex.0, face = .face.0
     )]
     VertexAboveFace {
@@ -100,9 +105,7 @@ pub enum ConvexityError {
         tolerance: f64,
     },
     /// The surface covers directions more than once.
-    #[error(
-        "the surface winds {turns:.2} times around its middle instead of once; set `convex_hull: true`"
-    )]
+    #[error("the surface winds {turns:.2} times around its middle instead of once; {USE_HULL}")]
     Winding {
         /// Solid angle over 4π.
         turns: f64,

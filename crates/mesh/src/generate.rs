@@ -9,6 +9,7 @@ mod revolution;
 use glam::DVec3;
 use thiserror::Error;
 
+use crate::digits::number;
 use crate::{HullError, MeshError, TriangleMesh};
 pub use ellipsoid::{fibonacci_ellipsoid, latitude_longitude_ellipsoid};
 pub use revolution::{capsule, cone, cylinder, tube};
@@ -17,7 +18,7 @@ pub use revolution::{capsule, cone, cylinder, tube};
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum GenerateError {
     /// A length that is not positive and finite.
-    #[error("{name} is {value} m: it must be positive and finite")]
+    #[error("{name} is {}: it must be positive and finite", number(*.value))]
     Length {
         /// Which parameter.
         name: &'static str,
@@ -37,7 +38,10 @@ pub enum GenerateError {
         max: u32,
     },
     /// A tube whose hole is as wide as the tube.
-    #[error("the inner radius {inner} m must be smaller than the outer radius {outer} m")]
+    #[error(
+        "the inner radius {} must be smaller than the outer radius {}",
+        number(*.inner), number(*.outer)
+    )]
     Hollow {
         /// Radius of the hole [m].
         inner: f64,

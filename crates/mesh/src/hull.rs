@@ -16,6 +16,7 @@ use glam::DVec3;
 use robust::{Coord3D, orient3d};
 use thiserror::Error;
 
+use crate::digits::number;
 use crate::triangle_mesh::compacted;
 use crate::{Aabb, MeshError, TriangleMesh};
 
@@ -40,7 +41,8 @@ pub enum HullError {
     },
     /// All at one place, on one line or in one plane.
     #[error(
-        "all {count} points lie {shape} (within {thickness:e} m over a size of {size:e} m): they enclose no volume"
+        "all {count} points lie {shape} (within {} over a size of {}): they enclose no volume",
+        number(*.thickness), number(*.size)
     )]
     Degenerate {
         /// Number of points.

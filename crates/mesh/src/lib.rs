@@ -7,6 +7,7 @@
 
 mod aabb;
 mod convex;
+mod digits;
 pub mod generate;
 mod half_edge;
 mod hull;

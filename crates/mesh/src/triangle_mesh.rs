@@ -11,6 +11,7 @@ use pliant_spatial::Pose;
 use thiserror::Error;
 
 use crate::Aabb;
+use crate::digits::point;
 pub use weld::WeldReport;
 pub(crate) use weld::compacted;
 
@@ -32,7 +33,7 @@ pub enum MeshError {
     #[error("the mesh has no triangles: it needs at least one")]
     Empty,
     /// NaN, infinite or so large that volumes overflow.
-    #[error("vertex {vertex} is at {position}: coordinates must be finite and below 1e75 m")]
+    #[error("vertex {vertex} is at {}: coordinates must be finite and below 1e75", point(*.position))]
     BadPosition {
         /// Index of the vertex.
         vertex: usize,

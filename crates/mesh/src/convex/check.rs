@@ -270,6 +270,27 @@ mod tests {
     }
 
     #[test]
+    fn texts_are_short_name_no_unit_and_tell_how_to_take_the_hull() {
+        let error = ConvexMesh::from_triangles(&bipyramid(4, 1, -0.2)).unwrap_err();
+        let message = error.to_string();
+        let hint = "use its hull (`convex_hull: true` in a scene, `ConvexMesh::hull` in code)";
+        assert!(message.ends_with(hint), "{message}");
+        for part in [
+            " (0, 0, 0.2)",
+            " is 0.3849 above the plane",
+            "tolerance 3e-5; ",
+        ] {
+            assert!(message.contains(part), "{part}: {message}");
+        }
+        let inverted = generate::cuboid(DVec3::splat(0.05)).unwrap().reversed();
+        let message = ConvexMesh::from_triangles(&inverted)
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("signed volume is -0.001; "), "{message}");
+        assert!(message.ends_with(hint), "{message}");
+    }
+
+    #[test]
     fn a_dimple_of_vanishing_edge_angles_is_found_globally() {
         let error = ConvexMesh::new(HalfEdgeMesh::new(&dimpled_sphere()).unwrap(), 1e-3)
             .err()
