@@ -126,7 +126,8 @@ impl Scene {
     fn trajectory(&self, files: &dyn Files) -> Result<Trajectory, SceneError> {
         let placement = &self.description().trajectory;
         let (path, bytes) = self.read_file(&placement.path, "trajectory.path", files)?;
-        let recorded = read_trajectory(&bytes, &path.display().to_string())?;
+        let recorded = read_trajectory(&bytes, &path.display().to_string())
+            .map_err(|error| self.naming("trajectory.path", error))?;
         recorded
             .mapped(&placement.pose.pose(), placement.scale.get())
             .and_then(|mapped| mapped.retimed(placement.speed.get()))

@@ -31,19 +31,33 @@ impl fmt::Display for Place {
 
 /// A fault of a scene, of a file it names or of an override: `place: what is wrong; what to do`.
 #[derive(Debug, Error)]
-#[error("{place}: {fault}")]
+#[error("{place}: {fault}{}", naming(named.as_deref()))]
 pub struct SceneError {
     /// Where.
     pub place: Place,
     /// What, and what to do.
     #[source]
     pub fault: Fault,
+    /// For a fault inside a mesh or trajectory file: where the scene names that file.
+    pub named: Option<Box<Place>>,
+}
+
+fn naming(named: Option<&Place>) -> String {
+    match named {
+        None => String::new(),
+        Some(place @ Place::File { .. }) => format!(" (named at {place})"),
+        Some(place @ Place::Argument(_)) => format!(" (named by {place})"),
+    }
 }
 
 impl SceneError {
     /// At a place.
     pub(crate) fn new(place: Place, fault: Fault) -> Self {
-        Self { place, fault }
+        Self {
+            place,
+            fault,
+            named: None,
+        }
     }
 }
 

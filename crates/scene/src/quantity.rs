@@ -10,8 +10,13 @@ use glam::DVec3;
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
+use crate::digits::refused;
+
 /// Lengths above this are taken for a unit mistake: no hand-held scene is a kilometre wide [m].
 const LONGEST: f64 = 1000.0;
+
+/// Tools are cut into ten or twenty; a number far above that is a slip, paid for in every tick.
+const MOST_SEGMENTS: u32 = 100;
 
 macro_rules! number {
     ($(#[$doc:meta])* $name:ident, $accepts:expr, $expected:literal) => {
@@ -35,6 +40,7 @@ macro_rules! number {
                 if accepts(value) {
                     Ok(Self(value))
                 } else {
+                    let value = refused(value, accepts);
                     Err(format!(concat!("{} is out of range; expected ", $expected), value))
                 }
             }
@@ -129,7 +135,8 @@ impl<const MIN: u32, const MAX: u32> TryFrom<f64> for Count<MIN, MAX> {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        if value.fract() == 0.0 && (f64::from(MIN)..=f64::from(MAX)).contains(&value) {
+        let accepts = |v: f64| v.fract() == 0.0 && (f64::from(MIN)..=f64::from(MAX)).contains(&v);
+        if accepts(value) {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
@@ -138,7 +145,8 @@ impl<const MIN: u32, const MAX: u32> TryFrom<f64> for Count<MIN, MAX> {
             return Ok(Self(value as u32));
         }
         Err(format!(
-            "{value} is out of range; expected a whole number from {MIN} to {MAX}"
+            "{} is out of range; expected a whole number from {MIN} to {MAX}",
+            refused(value, accepts)
         ))
     }
 }
@@ -146,6 +154,44 @@ impl<const MIN: u32, const MAX: u32> TryFrom<f64> for Count<MIN, MAX> {
 impl<const MIN: u32, const MAX: u32> From<Count<MIN, MAX>> for f64 {
     fn from(count: Count<MIN, MAX>) -> f64 {
         f64::from(count.0)
+    }
+}
+
+/// Segments of a tool, 1 to 100.
+///
+/// Each is tested against each object in every tick, so their number is the price of a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
+pub struct Segments(Count<1, MOST_SEGMENTS>);
+
+impl Segments {
+    /// A tool in one piece.
+    pub(crate) const ONE: Self = Self(Count::new(1));
+
+    /// The number.
+    pub const fn get(self) -> u32 {
+        self.0.get()
+    }
+}
+
+impl TryFrom<f64> for Segments {
+    type Error = String;
+
+    fn try_from(value: f64) -> Result<Self, String> {
+        let count = Count::try_from(value).map_err(|error: String| {
+            if value > f64::from(MOST_SEGMENTS) {
+                format!("{error}; each segment is tested against every object in every tick")
+            } else {
+                error
+            }
+        })?;
+        Ok(Self(count))
+    }
+}
+
+impl From<Segments> for f64 {
+    fn from(segments: Segments) -> f64 {
+        segments.0.into()
     }
 }
 

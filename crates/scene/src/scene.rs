@@ -1,10 +1,12 @@
 //! From text and overrides to a scene description.
 
 use ron::Options;
-use ron::error::{Error as RonError, Position, SpannedError};
+use ron::error::SpannedResult;
 use ron::extensions::Extensions;
 
-use crate::error::{Fault, SceneError, offset_of};
+use crate::error::{Fault, SceneError};
+use crate::explain::explained;
+use crate::recognise::not_a_scene;
 use crate::schema::SceneDescription;
 use crate::text::{Override, SceneText, is_one_value, quoted};
 
@@ -22,7 +24,13 @@ impl Scene {
     /// # Errors
     /// With line and column, when the text is not RON, or a field is unknown, missing or out of its range.
     pub fn from_str(text: &str, file_name: &str) -> Result<Self, SceneError> {
-        Self::read(SceneText::new(text, file_name))
+        // Some editors put a byte order mark before the text.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if let Some(message) = not_a_scene(text.as_bytes()) {
+            let place = SceneText::new(text, file_name).place(0);
+            return Err(SceneError::new(place, Fault::Syntax(message)));
+        }
+        Self::read(SceneText::new(text, file_name))?.with_names_checked()
     }
 
     /// [`Self::from_str`] for the bytes of a file.
@@ -32,9 +40,17 @@ impl Scene {
     pub fn from_bytes(bytes: &[u8], file_name: &str) -> Result<Self, SceneError> {
         let text = str::from_utf8(bytes).map_err(|error| {
             let readable = str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default();
-            let place = SceneText::new(readable, file_name).place(readable.len());
-            let message = "not UTF-8 text; save the scene as UTF-8";
-            SceneError::new(place, Fault::Syntax(message.to_owned()))
+            let text = SceneText::new(readable, file_name);
+            let (offset, message) = not_a_scene(bytes).map_or_else(
+                || {
+                    (
+                        readable.len(),
+                        "not UTF-8 text; save the scene as UTF-8".to_owned(),
+                    )
+                },
+                |message| (0, message),
+            );
+            SceneError::new(text.place(offset), Fault::Syntax(message))
         })?;
         Self::from_str(text, file_name)
     }
@@ -44,7 +60,7 @@ impl Scene {
     /// # Errors
     /// Citing the override, when its path or value is not accepted.
     pub fn with_overrides(self, overrides: &[Override]) -> Result<Self, SceneError> {
-        overrides.iter().try_fold(self, |scene, setting| {
+        let scene = overrides.iter().try_fold(self, |scene, setting| {
             // A bare word may stand for a string: `trajectory.path=other.csv`. What reads as RON is taken as RON.
             let as_string = quoted(&setting.value);
             if !is_one_value(&setting.value) {
@@ -54,18 +70,35 @@ impl Scene {
                 let text = scene.text.with_override(setting, &as_string)?;
                 Self::read(text).map_err(|_| error)
             })
-        })
+        })?;
+        scene.with_names_checked()
     }
 
     fn read(text: SceneText) -> Result<Self, SceneError> {
-        let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
-        match Options::default()
-            .with_default_extension(extensions)
-            .from_str(text.current())
-        {
+        match parsed(text.current()) {
             Ok(description) => Ok(Self { description, text }),
             Err(error) => Err(explained(&error, &text)),
         }
+    }
+
+    /// Results tell objects apart by their names. Checked after all overrides, so that two can swap names.
+    fn with_names_checked(self) -> Result<Self, SceneError> {
+        let objects = &self.description.objects;
+        let path = |index: usize| format!("objects[{index}].name");
+        for (index, object) in objects.iter().enumerate() {
+            let name = &object.name;
+            let message = if name.trim().is_empty() {
+                "the name is empty; expected a text that tells the object apart from others"
+                    .to_owned()
+            } else if let Some(first) = objects[..index].iter().position(|o| o.name == *name) {
+                let first = self.text.place_of(&path(first));
+                format!("another object is named {name:?} too, at {first}; give each its own name")
+            } else {
+                continue;
+            };
+            return Err(self.fault_at(&path(index), Fault::Value(message)));
+        }
+        Ok(self)
     }
 
     /// What the scene says.
@@ -82,65 +115,21 @@ impl Scene {
     pub(crate) fn fault_at(&self, path: &str, fault: Fault) -> SceneError {
         SceneError::new(self.text.place_of(path), fault)
     }
+
+    /// An error inside the file that the value at `path` names, with the place of that value.
+    pub(crate) fn naming(&self, path: &str, error: SceneError) -> SceneError {
+        let place = self.text.place_of(path);
+        SceneError {
+            named: Some(Box::new(place)),
+            ..error
+        }
+    }
 }
 
-/// The reader's error at the place of the value it is about, in words of scene files.
-fn explained(error: &SpannedError, text: &SceneText) -> SceneError {
-    let offset = |at: Position| offset_of(text.current(), at.line, at.col);
-    let place = text.place_between(offset(error.span.start), offset(error.span.end));
-    let one_of = |names: &[&str]| match names {
-        [] => "nothing here".to_owned(),
-        [name] => format!("`{name}`"),
-        _ => format!("one of {}", names.join(", ")),
-    };
-    let message = match &error.code {
-        RonError::Message(message) => return SceneError::new(place, Fault::Value(message.clone())),
-        RonError::NoSuchStructField {
-            expected,
-            found,
-            outer,
-        } => format!(
-            "unknown field `{found}`{}; expected {}",
-            inside(outer.as_deref()),
-            one_of(expected)
-        ),
-        RonError::MissingStructField { field, outer } => {
-            format!(
-                "field `{field}` is missing{}; add it",
-                inside(outer.as_deref())
-            )
-        }
-        RonError::DuplicateStructField { field, outer } => format!(
-            "field `{field}` is given twice{}; remove one",
-            inside(outer.as_deref())
-        ),
-        RonError::NoSuchEnumVariant {
-            expected,
-            found,
-            outer,
-        } => format!(
-            "unknown {} `{found}`; expected {}",
-            outer.as_deref().unwrap_or("name"),
-            one_of(expected)
-        ),
-        RonError::ExpectedNamedStructLike(name) => {
-            format!("expected the fields of `{name}` in parentheses: (name: value, …)")
-        }
-        RonError::ExpectedStructLike => {
-            "expected the fields in parentheses: (name: value, …)".to_owned()
-        }
-        RonError::ExpectedArray => "expected a list in square brackets: [item, …]".to_owned(),
-        RonError::ExpectedString => "expected a text in double quotes".to_owned(),
-        RonError::ExpectedFloat => "expected a number".to_owned(),
-        RonError::ExpectedBoolean => "expected true or false".to_owned(),
-        RonError::ExpectedComma => "expected a comma".to_owned(),
-        RonError::ExpectedIdentifier => "expected a name".to_owned(),
-        RonError::Eof => "the text ends too early; a bracket or a quote is not closed".to_owned(),
-        code => code.to_string(),
-    };
-    SceneError::new(place, Fault::Syntax(message))
-}
-
-fn inside(outer: Option<&str>) -> String {
-    outer.map_or_else(String::new, |name| format!(" in `{name}`"))
+/// The reader proper.
+pub(crate) fn parsed(text: &str) -> SpannedResult<SceneDescription> {
+    let extensions = Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES;
+    Options::default()
+        .with_default_extension(extensions)
+        .from_str(text)
 }

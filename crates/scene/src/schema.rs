@@ -81,7 +81,8 @@ pub struct PaperDescription {
     pub detection_interval: Count<1, 2>,
 }
 
-/// The virtual coupling.
+/// The virtual coupling. Only its spring is rendered: damping does not change the steady force in contact; after release
+/// the force decays over b/k.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default, rename = "coupling")]
 pub struct CouplingDescription {
@@ -99,7 +100,7 @@ pub struct CouplingDescription {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "object")]
 pub struct ObjectDescription {
-    /// Names the object in results.
+    /// Names the object in results; not empty, and no other object has it.
     pub name: String,
     /// Its surface, in its own frame.
     pub shape: ShapeDescription,
@@ -133,6 +134,9 @@ pub struct WorkspaceDescription {
 }
 
 /// A recorded motion and where to put it.
+///
+/// The samples are joined by a C² cubic spline in position and by slerp in orientation. The spline swings past sparse
+/// samples: record at 20 Hz or more, or repeat the pose where the hand rests.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename = "trajectory")]
 pub struct TrajectoryDescription {

@@ -155,25 +155,38 @@ impl SceneText {
         self.place(offset)
     }
 
-    /// The place the reader meant when it stood between bytes `start` and `end`: the literal or name it had read,
-    /// else the one it was about to read, else the start of what encloses both.
-    pub(crate) fn place_between(&self, start: usize, end: usize) -> Place {
+    /// Where the reader meant when it stood between bytes `start` and `end`: at the literal or name it had read,
+    /// else at the one it was about to read, else at the start of what encloses both.
+    pub(crate) fn offset_between(&self, start: usize, end: usize) -> usize {
         let Some(root) = outline(&self.current) else {
             // Not balanced: the reader may stand before the blank in front of what it could not read.
             let ahead = self.current.get(start..end).unwrap_or_default();
-            return self.place(start + ahead.len() - ahead.trim_start().len());
+            return start + ahead.len() - ahead.trim_start().len();
         };
         let at_start = root.innermost(start);
         let at_end = root.innermost(end);
-        let offset = if at_start == root.span && at_end == root.span {
+        if at_start == root.span && at_end == root.span {
             // A field of the scene itself is missing: its first byte says no more than the reader's position.
             start
         } else if at_end.len() < at_start.len() {
             at_end.start
         } else {
             at_start.start
-        };
-        self.place(offset)
+        }
+    }
+
+    /// The number, name or text in quotes at byte `offset`; `None` at brackets and in an unbalanced text.
+    pub(crate) fn word_at(&self, offset: usize) -> Option<Range<usize>> {
+        let span = outline(&self.current)?.innermost(offset);
+        let word = self.current.get(span.clone())?;
+        let is_plain = !word.contains(['(', '[', ':']) || word.starts_with('"');
+        is_plain.then_some(span)
+    }
+
+    /// The name of the innermost field whose value holds byte `offset`.
+    pub(crate) fn field_around(&self, offset: usize) -> Option<&str> {
+        let key = outline(&self.current)?.field_around(offset)?;
+        self.current.get(key)
     }
 
     /// Writes `value` at `path`; fields that were left at their defaults are added.

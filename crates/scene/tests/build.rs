@@ -6,7 +6,7 @@
 )]
 
 use glam::DVec3;
-use pliant_scene::{BuiltScene, MemoryFiles, Scene, SceneError};
+use pliant_scene::{BuiltScene, MemoryFiles, Override, Scene, SceneError};
 
 const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
 f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
@@ -120,6 +120,46 @@ fn faults_of_geometry_and_files_have_their_place() {
         );
         assert!(message.contains(part), "{message}");
     }
+}
+
+#[test]
+fn faults_inside_a_named_file_say_who_named_it() {
+    let mesh = "mesh(path: \"bad.obj\", unit: mm)";
+    let message = build(ROD, mesh, "").unwrap_err().to_string();
+    assert!(message.starts_with("f/bad.obj:2:1: "), "{message}");
+    assert!(message.ends_with(" (named at f/s.ron:3:41)"), "{message}");
+    let tool = "shape: mesh(file: (path: \"bad.obj\", unit: mm))";
+    let message = build(tool, BOX, "").unwrap_err().to_string();
+    assert!(message.ends_with(" (named at f/s.ron:2:33)"), "{message}");
+
+    let text = format!("(\ntool: ({ROD}), objects: [],\n trajectory: (path: \"m.csv\"))");
+    let files = MemoryFiles([("m.csv".into(), b"t_s,x_m\n".to_vec())].into());
+    let scene = Scene::from_str(&text, "s.ron").unwrap();
+    let message = scene.build(&files).unwrap_err().to_string();
+    assert!(message.starts_with("m.csv:1:1: "), "{message}");
+    assert!(message.ends_with(" (named at s.ron:3:21)"), "{message}");
+    let setting = Override::parse("trajectory.path=./m.csv").unwrap();
+    let files = MemoryFiles([("./m.csv".into(), b"t_s,x_m\n".to_vec())].into());
+    let scene = scene.with_overrides(&[setting]).unwrap();
+    let message = scene.build(&files).unwrap_err().to_string();
+    let end = " (named by --set trajectory.path=./m.csv)";
+    assert!(message.ends_with(end), "{message}");
+}
+
+#[test]
+fn reasons_why_a_shape_is_not_convex_are_short_and_in_metres() {
+    let tube = "tube(outer_radius: 0.0123456789, inner_radius: 0.01, length: 0.1)";
+    let message = build(ROD, tube, "").unwrap_err().to_string();
+    assert!(message.ends_with(" (lengths in metres)"), "{message}");
+    assert!(
+        message.contains("use its hull (`convex_hull: true` in a scene"),
+        "{message}"
+    );
+    let longest = message
+        .split(|c: char| !c.is_ascii_digit())
+        .map(str::len)
+        .max();
+    assert!(longest <= Some(8), "{message}");
 }
 
 #[test]

@@ -64,12 +64,12 @@ fn numbers_out_of_range_are_refused_where_they_stand() {
         (
             "segments: 1",
             "segments: 0",
-            "s.ron:5:19: 0 is out of range; expected a whole number from 1 to 1000",
+            "s.ron:5:19: 0 is out of range; expected a whole number from 1 to 100",
         ),
         (
             "segments: 1",
-            "segments: 1001",
-            "s.ron:5:19: 1001 is out of range",
+            "segments: 101",
+            "s.ron:5:19: 101 is out of range; expected a whole number from 1 to 100; each segment is tested",
         ),
         (
             "segments: 1",
@@ -198,6 +198,113 @@ fn texts_that_are_no_scene_are_refused_with_a_place() {
         error.to_string().starts_with("s.ron:2:3: not UTF-8"),
         "{error}"
     );
+}
+
+#[test]
+fn other_kinds_of_files_are_named() {
+    for (bytes, kind) in [
+        (&b"t_s,x_m,y_m\n0,1,2\n"[..], "a trajectory"),
+        (b"# cube\nv 0 0 0\nv 1 0 0\n", "a mesh"),
+        (b"glTF\x02\0\0\0\xff", "a mesh"),
+        (b"\x89PNG\r\n\x1a\n\0", "binary data"),
+    ] {
+        let message = Scene::from_bytes(bytes, "s.ron").unwrap_err().to_string();
+        let expected = format!(
+            "s.ron:1:1: this looks like {kind}, not a scene; a scene is a RON text beginning with `(`"
+        );
+        assert_eq!(message, expected);
+    }
+    let marked = format!("\u{feff}{GOOD}");
+    Scene::from_bytes(marked.as_bytes(), "s.ron").unwrap();
+}
+
+#[test]
+fn wrong_forms_of_rotation_spell_out_the_right_one() {
+    for rotation in [
+        "(0, 0, 0, 1)",
+        "(0.5, 0.5, 0.5, 0.5)",
+        "(x: 0, y: 0, z: 0, w: 1)",
+        "[0, 0, 0, 1]",
+        "quat(0, 0, 0, 1)",
+        "90",
+        "(\"x\", 90)",
+    ] {
+        let message = message("(axis: (0, 0, 1), angle_deg: 90)", rotation);
+        assert!(message.starts_with("s.ron:11:"), "{rotation}: {message}");
+        assert!(
+            message.ends_with("rotation: (axis: (x, y, z), angle_deg: a)")
+                || message.ends_with("expected one of axis, angle_deg"),
+            "{rotation}: {message}"
+        );
+        assert!(!message.contains("r#"), "{message}");
+    }
+    let message = message(
+        "(position: (0, 0, -0.025), rotation: (axis: (0, 0, 1), angle_deg: 90))",
+        "(0, 0, 0)",
+    );
+    assert!(message.contains("pose: (position: (x, y, z)"), "{message}");
+}
+
+#[test]
+fn words_in_place_of_numbers_say_what_number_is_expected() {
+    for (old, new, start) in [
+        (
+            "0.006,",
+            "2cm,",
+            "s.ron:4:40: expected a number, not `2cm`: a length above 0 and up to 1000 m",
+        ),
+        (
+            "0.006,",
+            "\"2 cm\",",
+            "s.ron:4:40: expected a number, not `\"2 cm\"`: a length above 0",
+        ),
+        (
+            "0.006,",
+            "nan,",
+            "s.ron:4:40: NaN is out of range; expected a length above 0 and up to 1000 m",
+        ),
+        (
+            "(0, 0, -0.025)",
+            "(0, 0, -25mm)",
+            "s.ron:11:37: expected a number, not `-25mm`: a finite number",
+        ),
+        (
+            "segments: 1",
+            "segments: ten",
+            "s.ron:5:19: expected a number, not `ten`: a whole number from 1 to 100",
+        ),
+    ] {
+        let message = message(old, new);
+        assert!(message.starts_with(start), "{new}: {message}");
+    }
+}
+
+#[test]
+fn numbers_in_messages_are_short() {
+    for (number, shown) in [
+        ("1e300", "1e300"),
+        ("1234567.890123", "1.2346e6"),
+        ("1000.0000001", "1000.0000001"),
+        ("-0.025611749338328015", "-0.025612"),
+    ] {
+        let message = message("0.006,", &format!("{number},"));
+        let start = format!("s.ron:4:40: {shown} is out of range");
+        assert!(message.starts_with(&start), "{message}");
+    }
+}
+
+#[test]
+fn names_of_objects_are_there_and_differ() {
+    for name in ["\"\"", "\"  \""] {
+        let message = message("\"box\"", name);
+        assert!(
+            message.starts_with("s.ron:9:19: the name is empty"),
+            "{message}"
+        );
+    }
+    let start = "s.ron:14:16: another object is named \"box\" too, at s.ron:9:19; ";
+    let message = message("\"m\"", "\"box\"");
+    assert!(message.starts_with(start), "{message}");
 }
 
 proptest::proptest! {

@@ -103,6 +103,35 @@ fn faults_cite_the_argument_and_list_what_there_is() {
 }
 
 #[test]
+fn overrides_say_the_same_as_the_file() {
+    let place = "(1, 1, 1)";
+    for word in ["2cm", "nan", "NaN", "-1", "1e300", "\"2\""] {
+        let file = Scene::from_str(&TEXT.replace(place, &format!("({word}, 1, 1)")), "s.ron");
+        let file = file.unwrap_err().fault.to_string();
+        let setting = format!("objects[0].shape.size[0]={word}");
+        let message = set(&[&setting]).unwrap_err().to_string();
+        assert_eq!(message, format!("--set {setting}: {file}"));
+    }
+}
+
+#[test]
+fn names_are_compared_after_all_overrides() {
+    set(&["objects[0].name=m", "objects[1].name=box"]).unwrap();
+    let message = set(&["objects[0].name=m"]).unwrap_err().to_string();
+    assert!(
+        message.starts_with(
+            "s.ron:6:16: another object is named \"m\" too, at --set objects[0].name=m"
+        ),
+        "{message}"
+    );
+    let message = set(&["objects[1].name=\"\""]).unwrap_err().to_string();
+    assert!(
+        message.starts_with("--set objects[1].name=\"\": the name is empty"),
+        "{message}"
+    );
+}
+
+#[test]
 fn later_faults_of_the_file_keep_their_place_in_the_file() {
     let scene = set(&["rate_hz=2000", "coupling.linear_stiffness=700"]).unwrap();
     let error = scene

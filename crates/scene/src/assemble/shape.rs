@@ -1,7 +1,7 @@
 //! Surfaces: generated, or read from mesh files and brought to metres.
 
 use pliant_mesh::generate;
-use pliant_mesh::{ConvexMesh, TriangleMesh};
+use pliant_mesh::{ConvexMesh, ConvexityError, HullError, TriangleMesh};
 
 use crate::error::{Fault, SceneError};
 use crate::files::Files;
@@ -38,7 +38,18 @@ pub(super) fn convex(
     } else {
         ConvexMesh::from_triangles(&mesh)
     };
-    convex.map_err(|error| fault(error.to_string()))
+    convex.map_err(|error| fault(in_metres(&error)))
+}
+
+/// What stands in the way, with the unit that the mesh itself does not know: scenes scale their meshes to metres.
+pub(super) fn in_metres(error: &ConvexityError) -> String {
+    match error {
+        ConvexityError::Topology(_)
+        | ConvexityError::Shells { .. }
+        | ConvexityError::Winding { .. }
+        | ConvexityError::Hull(HullError::TooFew { .. }) => error.to_string(),
+        _ => format!("{error} (lengths in metres)"),
+    }
 }
 
 fn face_count(shape: &ShapeDescription) -> Option<u64> {
@@ -118,7 +129,8 @@ pub(super) fn mesh_in_metres(
 ) -> Result<TriangleMesh, SceneError> {
     let field = format!("{path}.path");
     let (mesh_path, bytes) = scene.read_file(&file.path, &field, files)?;
-    let loaded = read_mesh(&mesh_path, &bytes, files)?;
+    let loaded =
+        read_mesh(&mesh_path, &bytes, files).map_err(|error| scene.naming(&field, error))?;
     let scaled = loaded
         .mesh
         .scaled(file.unit.metres() * file.scale.get())

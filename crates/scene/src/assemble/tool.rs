@@ -7,7 +7,8 @@ use pliant_mesh::generate::{self, GenerateError};
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 use pliant_spatial::Pose;
 
-use super::shape::mesh_in_metres;
+use super::shape::{in_metres, mesh_in_metres};
+use crate::digits::number;
 use crate::error::{Fault, SceneError};
 use crate::files::Files;
 use crate::scene::Scene;
@@ -19,7 +20,7 @@ pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMes
     let fault = |message: String| scene.fault_at("tool.shape", Fault::Geometry(message));
     let count = tool.segments.get();
     let convex = |mesh: &TriangleMesh| {
-        ConvexMesh::from_triangles(mesh).map_err(|error| fault(error.to_string()))
+        ConvexMesh::from_triangles(mesh).map_err(|error| fault(in_metres(&error)))
     };
     if let Some((section, length)) = section(&tool.shape) {
         return (0..count)
@@ -49,6 +50,7 @@ pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMes
             let points = slice(&whole, start, border(length, index + 1, count));
             ConvexMesh::hull(&points).map_err(|error| {
                 let advice = "use fewer segments";
+                let error = in_metres(&error);
                 fault(format!("segment {index} of {count}: {error}; {advice}"))
             })
         })
@@ -160,7 +162,10 @@ fn capsule(shape: &ToolShape) -> Result<TriangleMesh, String> {
     let caps = 2.0 * radius;
     if length <= caps {
         return Err(format!(
-            "a capsule {length} m long has no room for half spheres of radius {radius} m; make it longer than {caps} m"
+            "a capsule {} m long has no room for half spheres of radius {} m; make it longer than {} m",
+            number(length),
+            number(radius),
+            number(caps)
         ));
     }
     generate::capsule(radius, length - caps, sectors.get(), bands.get())

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::shape::{Bands, MeshFile, Sectors, default_cap_bands, default_sectors};
-use crate::quantity::{Count, Direction, Length, RadiusOrPoint};
+use crate::quantity::{Direction, Length, RadiusOrPoint, Segments};
 
 /// A rigid tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -11,9 +11,9 @@ use crate::quantity::{Count, Direction, Length, RadiusOrPoint};
 pub struct ToolDescription {
     /// Its surface.
     pub shape: ToolShape,
-    /// Pieces of equal length it is cut into along x, each a convex hull; 1.
+    /// Pieces of equal length it is cut into along x, each a convex hull, 1 to 100: each takes time in every tick; 1.
     #[serde(default = "one_segment")]
-    pub segments: Count<1, 1000>,
+    pub segments: Segments,
 }
 
 /// Surfaces of tools; generated ones start at the clamp and are centred on the x axis.
@@ -75,8 +75,8 @@ pub enum ToolShape {
     },
 }
 
-fn one_segment() -> Count<1, 1000> {
-    Count::new(1)
+fn one_segment() -> Segments {
+    Segments::ONE
 }
 
 fn default_tool_sectors() -> Sectors {

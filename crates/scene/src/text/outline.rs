@@ -77,6 +77,18 @@ impl Node {
         }
         self.span.clone()
     }
+
+    /// The name of the innermost field whose value holds offset `at`.
+    pub(crate) fn field_around(&self, at: usize) -> Option<Range<usize>> {
+        match &self.inside {
+            Inside::Leaf => None,
+            Inside::Fields(fields) => fields
+                .iter()
+                .find(|field| field.value.span.contains(&at))
+                .map(|field| field.value.field_around(at).unwrap_or(field.key.clone())),
+            Inside::Items(items) => items.iter().find_map(|item| item.field_around(at)),
+        }
+    }
 }
 
 struct Cursor<'a> {

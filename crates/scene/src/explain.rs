@@ -1,0 +1,167 @@
+//! The reader's errors in words of scene files.
+
+use ron::error::{Error as RonError, Position, SpannedError};
+
+use crate::error::{Fault, SceneError, offset_of};
+use crate::scene::parsed;
+use crate::text::SceneText;
+
+/// The reader's error at the place of the value it is about.
+pub(crate) fn explained(error: &SpannedError, text: &SceneText) -> SceneError {
+    let offset = |at: Position| offset_of(text.current(), at.line, at.col);
+    let at = text.offset_between(offset(error.span.start), offset(error.span.end));
+    let place = text.place(at);
+    if let RonError::Message(message) = &error.code {
+        return SceneError::new(place, Fault::Value(message.clone()));
+    }
+    if let Some(fault) = no_number(error, text, at) {
+        return SceneError::new(place, fault);
+    }
+    let message = names(&error.code)
+        .or_else(|| forms(&error.code, text, at))
+        .unwrap_or_else(|| syntax(&error.code));
+    SceneError::new(place, Fault::Syntax(message))
+}
+
+/// A word such as `2cm` or `nan` where a number belongs: what kind of number is known once the word is exchanged for
+/// one that every kind refuses.
+fn no_number(error: &SpannedError, text: &SceneText, at: usize) -> Option<Fault> {
+    const REFUSED: &str = "NaN";
+    if !matches!(
+        error.code,
+        RonError::ExpectedFloat
+            | RonError::ExpectedComma
+            | RonError::FloatUnderscore
+            | RonError::UnderscoreAtBeginning
+            | RonError::InvalidValueForType { .. }
+    ) {
+        return None;
+    }
+    let span = text.word_at(at)?;
+    let word = &text.current()[span.clone()];
+    let mut exchanged = text.current().to_owned();
+    exchanged.replace_range(span, REFUSED);
+    let Err(RonError::Message(message)) = parsed(&exchanged).map_err(|error| error.code) else {
+        return None;
+    };
+    let expected = message.strip_prefix("NaN is out of range; expected ")?;
+    if word.eq_ignore_ascii_case(REFUSED) {
+        return Some(Fault::Value(message));
+    }
+    Some(Fault::Syntax(format!(
+        "expected a number, not `{word}`: {expected}"
+    )))
+}
+
+/// Fields and variants that are unknown, missing or doubled.
+fn names(code: &RonError) -> Option<String> {
+    Some(match code {
+        RonError::NoSuchStructField {
+            expected,
+            found,
+            outer,
+        } => format!(
+            "unknown field `{found}`{}; expected {}",
+            inside(outer.as_deref()),
+            one_of(expected)
+        ),
+        RonError::MissingStructField { field, outer } => format!(
+            "field `{field}` is missing{}; add it",
+            inside(outer.as_deref())
+        ),
+        RonError::DuplicateStructField { field, outer } => format!(
+            "field `{field}` is given twice{}; remove one",
+            inside(outer.as_deref())
+        ),
+        RonError::NoSuchEnumVariant {
+            expected,
+            found,
+            outer,
+        } => format!(
+            "unknown {} `{found}`; expected {}",
+            outer.as_deref().unwrap_or("name"),
+            one_of(expected)
+        ),
+        _ => return None,
+    })
+}
+
+/// Values in brackets of the wrong form, with the right one spelled out.
+fn forms(code: &RonError, text: &SceneText, at: usize) -> Option<String> {
+    Some(match code {
+        RonError::ExpectedNamedStructLike(name) => {
+            format!(
+                "expected the fields of `{name}` in parentheses: {}",
+                form(name)
+            )
+        }
+        RonError::ExpectedDifferentStructName { expected, found } => format!(
+            "`{found}` stands where the fields of `{expected}` belong: {}",
+            form(expected)
+        ),
+        // The reader takes anything in front of a missing colon for a name.
+        RonError::SuggestRawIdentifier(found) | RonError::InvalidIdentifier(found) => {
+            match text.field_around(at).filter(|name| form(name) != ANY_FORM) {
+                Some(name) => format!("`{found}` is no field of `{name}`; expected {}", form(name)),
+                None => format!("expected a field's name and a colon before `{found}`: {ANY_FORM}"),
+            }
+        }
+        RonError::ExpectedIdentifier => match text.field_around(at) {
+            Some(name) if form(name) != ANY_FORM => {
+                format!("expected a field's name in `{name}`: {}", form(name))
+            }
+            _ => format!("expected a field's name: {ANY_FORM}"),
+        },
+        RonError::ExpectedStructLike => format!("expected the fields in parentheses: {ANY_FORM}"),
+        _ => return None,
+    })
+}
+
+/// What remains: brackets, quotes and plain values.
+fn syntax(code: &RonError) -> String {
+    let message = match code {
+        RonError::ExpectedArray => "expected a list in square brackets: [item, …]",
+        RonError::ExpectedString => "expected a text in double quotes",
+        RonError::ExpectedFloat => "expected a number",
+        RonError::ExpectedBoolean => "expected true or false",
+        RonError::ExpectedComma => "expected a comma",
+        RonError::ExpectedAttribute => "expected `(`, with which a scene begins",
+        RonError::TrailingCharacters => {
+            "the scene has ended here; remove what follows or the bracket that closes too early"
+        }
+        RonError::ExceededRecursionLimit => "the brackets are nested too deep",
+        RonError::Eof => "the text ends too early; a bracket or a quote is not closed",
+        code => return code.to_string(),
+    };
+    message.to_owned()
+}
+
+const ANY_FORM: &str = "(name: value, …)";
+
+/// How the value of a field is written.
+fn form(name: &str) -> &'static str {
+    match name {
+        "rotation" => "rotation: (axis: (x, y, z), angle_deg: a)",
+        "pose" => "pose: (position: (x, y, z), rotation: (axis: (x, y, z), angle_deg: a))",
+        "tool" => "tool: (shape: rod(length: …, width: …, height: …))",
+        "object" | "objects" => "objects: [(name: \"…\", shape: …, pose: (…)), …]",
+        "file" | "mesh" => "(path: \"…\", unit: mm)",
+        "trajectory" => "trajectory: (path: \"motion.csv\")",
+        "coupling" => "coupling: (linear_stiffness: k, linear_damping: b)",
+        "workspace" => "workspace: (pose: (…), position_scale: s, force_scale: f)",
+        "paper" => "paper: (edge_width: w, detection_interval: n)",
+        _ => ANY_FORM,
+    }
+}
+
+fn one_of(names: &[&str]) -> String {
+    match names {
+        [] => "nothing here".to_owned(),
+        [name] => format!("`{name}`"),
+        _ => format!("one of {}", names.join(", ")),
+    }
+}
+
+fn inside(outer: Option<&str>) -> String {
+    outer.map_or_else(String::new, |name| format!(" in `{name}`"))
+}
