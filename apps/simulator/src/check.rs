@@ -3,12 +3,17 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use pliant_mesh::{MeshReport, Winding, inspect};
+use pliant_device::WorkspaceMap;
+use pliant_mesh::{ConvexMesh, MeshReport, TriangleMesh, Winding, inspect};
 use pliant_scene::{Disk, MESH_EXTENSIONS, Scene, Unit, read_mesh, read_trajectory};
 
 use crate::cli::CheckArguments;
 use crate::failure::Failure;
 use crate::output;
+use crate::survey;
+
+/// How often a motion is looked at for its speed [Hz].
+const SAMPLING_HZ: u32 = 1000;
 
 /// Checks every file, also after one that is wrong.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -63,30 +68,9 @@ fn scene(name: &str, bytes: &[u8]) -> Result<String, Failure> {
     if !scene.description().description.is_empty() {
         lines.add("shows", &scene.description().description);
     }
-    let world = &built.world;
-    let segments = world.tool().segments.len();
-    lines.add(
-        "tool",
-        format!("{segments} segment{}", if segments == 1 { "" } else { "s" }),
-    );
-    for (name, obstacle) in world.object_names().iter().zip(world.obstacles()) {
-        let topology = obstacle.shape.topology();
-        let (vertices, faces) = (topology.vertex_count(), topology.face_count());
-        lines.add(
-            "object",
-            format!("{name}: {vertices} vertices, {faces} faces"),
-        );
+    for (name, value) in survey::scene(&built) {
+        lines.add(name, value);
     }
-    lines.add("method", built.method.name());
-    lines.add(
-        "run",
-        format!(
-            "{} s at {} Hz, motion of {} s",
-            built.seconds,
-            built.rate_hz,
-            built.trajectory.duration()
-        ),
-    );
     Ok(lines.0)
 }
 
@@ -96,6 +80,9 @@ fn trajectory(name: &str, bytes: &[u8]) -> Result<String, Failure> {
     let merged = trajectory.merged();
     lines.add("duration", format!("{} s", trajectory.duration()));
     lines.add("samples", trajectory.knots().len());
+    for (name, value) in survey::motion(&trajectory, &WorkspaceMap::IDENTITY, SAMPLING_HZ) {
+        lines.add(name, value);
+    }
     if merged.duplicates + merged.near_duplicates > 0 {
         lines.add(
             "repairs",
@@ -122,7 +109,7 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
     lines.add("vertices", found.vertices);
     lines.add("faces", found.faces);
     lines.add("shells", found.shells);
-    surface(&mut lines, &found, unit);
+    surface(&mut lines, &found, &in_metres, unit);
     let (factor, length, volume) = match unit {
         Some(_) => (1e3, "mm", "mm³"),
         None => (1.0, "file units (give --unit for mm)", "cubic file units"),
@@ -158,7 +145,7 @@ fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure
 }
 
 /// Closed, convex, and which way it faces.
-fn surface(lines: &mut Lines, found: &MeshReport, unit: Option<Unit>) {
+fn surface(lines: &mut Lines, found: &MeshReport, mesh: &TriangleMesh, unit: Option<Unit>) {
     match found.boundary_loops {
         Some(loops) if loops > 0 => lines.add("closed", format!("no: {loops} open border(s)")),
         _ => lines.add("closed", if found.closed { "yes" } else { "no" }),
@@ -168,6 +155,11 @@ fn surface(lines: &mut Lines, found: &MeshReport, unit: Option<Unit>) {
     }
     match (&found.convex, unit) {
         (Ok(()), _) => lines.add("convex", "yes"),
+        // The advice to take the hull instead would fail as well.
+        (Err(_), _) if ConvexMesh::hull(mesh.positions()).is_err() => lines.add(
+            "convex",
+            "no: the mesh encloses no volume and cannot be touched",
+        ),
         (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason}")),
         (Err(_), None) => {
             lines.add(

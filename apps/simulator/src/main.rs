@@ -10,7 +10,9 @@ mod failure;
 mod output;
 mod plot;
 mod run;
+mod settings;
 mod summary;
+mod survey;
 mod trace;
 
 use std::process::ExitCode;
@@ -18,7 +20,6 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::cli::{Cli, Command, RunArguments};
-use crate::failure::Failure;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -39,14 +40,6 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(Failure::Reported) => ExitCode::from(1),
-        Err(Failure::Input(message)) => {
-            output::note(&message);
-            ExitCode::from(1)
-        }
-        Err(Failure::System(message)) => {
-            output::note(&message);
-            ExitCode::from(3)
-        }
+        Err(failure) => failure.report(),
     }
 }

@@ -1,40 +1,45 @@
 //! `pliant run`: steps the servo and keeps what is asked for.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pliant_scene::{BuiltScene, Disk, Files, Override, Scene};
+use pliant_scene::{BuiltScene, Disk, Files, Scene};
 use pliant_servo::{Clock, MonotonicClock, Pacer, Rate, Sample, Servo, ServoError, ServoParts};
 use pliant_sim::{tick, visual_penetration};
 
-use crate::cli::RunArguments;
+use crate::cli::{MOST_TICKS, RunArguments};
 use crate::embedded::{self, EmbeddedFiles};
 use crate::failure::Failure;
 use crate::output::{self, PendingFile};
 use crate::plot::{self, PlotData};
+use crate::settings::{self, Watched};
 use crate::summary::{Gauge, TickTimes};
-use crate::trace::Trace;
-
-/// More than this fill the memory with tick times.
-const MOST_TICKS: u64 = 100_000_000;
+use crate::survey;
+use crate::trace::{Head, Trace};
 
 /// Ticks between two looks of the progress bar at the clock.
 const PROGRESS_INTERVAL: u64 = 256;
 
 /// Runs a scene.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
+    let settings = settings::overrides(arguments)?;
     let (scene, files) = scene(arguments)?;
-    let built = scene.with_overrides(&overrides(arguments)?)?.build(files)?;
+    let files = Watched::new(files, arguments.scene.as_deref());
+    let built = scene
+        .with_overrides(&settings)?
+        .build(&files)
+        .map_err(settings::explained)?;
+    files.guard(arguments)?;
     let run = Run::new(&built, arguments)?;
     let pending = |path: &Option<PathBuf>| path.as_deref().map(PendingFile::create).transpose();
     let (csv, png) = (pending(&arguments.csv)?, pending(&arguments.plot)?);
-    let (method, rate_hz) = (built.method.name(), built.rate_hz);
     let mut records = Records {
-        gauge: Gauge::new(built.world.coupling().linear_stiffness, rate_hz),
+        gauge: Gauge::new(built.world.coupling().linear_stiffness, built.rate_hz),
         curves: png.is_some().then(Curves::default),
         trace: csv
-            .map(|file| Trace::new(file, &run.name, method, rate_hz))
+            .map(|file| Trace::new(file, &run.head(arguments)))
             .transpose()?,
     };
     let (times, late_ticks) = run.repeated(arguments.repeat, &mut records)?;
@@ -57,8 +62,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output::print(&if arguments.json {
         gauge.summary.json()
     } else {
-        let head = format!("{}, method {method}", run.name);
-        gauge.summary.text(&head, gauge.mean_force())
+        run.report(&gauge)
     })
 }
 
@@ -74,51 +78,6 @@ fn scene(arguments: &RunArguments) -> Result<(Scene, &'static dyn Files), Failur
         Scene::from_bytes(&bytes, &path.display().to_string())?,
         &Disk,
     ))
-}
-
-/// What the command line sets, `--set` last.
-fn overrides(arguments: &RunArguments) -> Result<Vec<Override>, Failure> {
-    let mut overrides = Vec::new();
-    let mut set = |flag: &str, path: &str, value: String| {
-        overrides.push(Override {
-            argument: format!("{flag} {value}"),
-            path: path.to_owned(),
-            value,
-        });
-    };
-    if let Some(method) = arguments.method {
-        set("--method", "method", method.name().to_owned());
-    }
-    if let Some(rate) = arguments.rate {
-        set("--rate", "rate_hz", rate.to_string());
-    }
-    if let Some(seconds) = arguments.seconds {
-        set("--seconds", "seconds", format!("{seconds:?}"));
-    }
-    if let Some(device) = &arguments.device {
-        if device != "scripted" {
-            return Err(Failure::Input(format!(
-                "--device {device}: unknown device; this version has: scripted"
-            )));
-        }
-        set("--device", "device", device.clone());
-    }
-    if let Some(path) = &arguments.trajectory {
-        // From where the user stands, not from the folder of the scene.
-        let argument = format!("--trajectory {}", path.display());
-        let absolute = std::path::absolute(path)
-            .map_err(|error| Failure::Input(format!("{argument}: {error}")))?;
-        let value = absolute.to_str().ok_or_else(|| {
-            Failure::Input(format!(
-                "{argument}: the path is not UTF-8; rename the file"
-            ))
-        })?;
-        overrides.push(Override::string(argument, "trajectory.path", value));
-    }
-    for setting in &arguments.set {
-        overrides.push(Override::parse(setting)?);
-    }
-    Ok(overrides)
 }
 
 /// Everything that a pass over the scene needs.
@@ -141,9 +100,14 @@ impl<'a> Run<'a> {
         )]
         let ticks = arguments.ticks.unwrap_or(of_seconds as u64);
         if ticks > MOST_TICKS {
-            return Err(Failure::Input(format!(
-                "{ticks} ticks are more than {MOST_TICKS}; run fewer ticks or seconds"
-            )));
+            let message =
+                format!("{ticks} ticks are more than {MOST_TICKS}; run fewer ticks or seconds");
+            let by_option = arguments.seconds.is_some() || arguments.rate.is_some();
+            return Err(if by_option {
+                Failure::Usage(message)
+            } else {
+                Failure::Input(message)
+            });
         }
         let stem = arguments.scene.as_deref().and_then(Path::file_stem);
         Ok(Self {
@@ -214,6 +178,35 @@ impl<'a> Run<'a> {
             }
         }
         Ok(pacer.report().late_ticks)
+    }
+
+    fn head(&self, arguments: &RunArguments) -> Head<'_> {
+        Head {
+            scene: &self.name,
+            method: self.built.method.name(),
+            rate_hz: self.built.rate_hz,
+            settings: settings::record(arguments),
+            objects: self.built.world.object_names(),
+        }
+    }
+
+    /// For people: the figures, and what explains a run that felt odd.
+    fn report(&self, gauge: &Gauge) -> String {
+        let head = format!("{}, method {}", self.name, self.built.method.name());
+        let mut text = gauge.summary.text(&head, gauge.mean_force());
+        let mut line = |name: &str, value: &str| {
+            let _ = writeln!(text, "  {name:<16}{value}");
+        };
+        if let Some(start) = survey::start(self.built) {
+            line("start", &start);
+        }
+        if gauge.summary.contact_ticks == 0 {
+            line(
+                "no contact",
+                &survey::missed(self.built, gauge.summary.seconds),
+            );
+        }
+        text
     }
 
     fn plot_data(&self, curves: Curves, times: &[u64], gauge: &Gauge) -> PlotData {
