@@ -9,7 +9,13 @@ use crate::text::SceneText;
 /// The reader's error at the place of the value it is about.
 pub(crate) fn explained(error: &SpannedError, text: &SceneText) -> SceneError {
     let offset = |at: Position| offset_of(text.current(), at.line, at.col);
-    let at = text.offset_between(offset(error.span.start), offset(error.span.end));
+    let (start, end) = (offset(error.span.start), offset(error.span.end));
+    // A bare name such as `nan` is found to be of the wrong type only after it was read.
+    let name = match error.code {
+        RonError::InvalidValueForType { .. } if end > 0 => text.word_at(end - 1),
+        _ => None,
+    };
+    let at = name.map_or_else(|| text.offset_between(start, end), |span| span.start);
     let place = text.place(at);
     if let RonError::Message(message) = &error.code {
         return SceneError::new(place, Fault::Value(message.clone()));
@@ -17,7 +23,8 @@ pub(crate) fn explained(error: &SpannedError, text: &SceneText) -> SceneError {
     if let Some(fault) = no_number(error, text, at) {
         return SceneError::new(place, fault);
     }
-    let message = names(&error.code)
+    let message = wrong_kind(&error.code, text, at)
+        .or_else(|| names(&error.code))
         .or_else(|| forms(&error.code, text, at))
         .unwrap_or_else(|| syntax(&error.code));
     SceneError::new(place, Fault::Syntax(message))
@@ -51,6 +58,16 @@ fn no_number(error: &SpannedError, text: &SceneText, at: usize) -> Option<Fault>
     Some(Fault::Syntax(format!(
         "expected a number, not `{word}`: {expected}"
     )))
+}
+
+/// A value of another kind, such as a number where three belong.
+fn wrong_kind(code: &RonError, text: &SceneText, at: usize) -> Option<String> {
+    let RonError::InvalidValueForType { expected, .. } = code else {
+        return None;
+    };
+    let word = text.word_at(at)?;
+    let word = text.current().get(word)?;
+    Some(format!("expected {expected}, not `{word}`"))
 }
 
 /// Fields and variants that are unknown, missing or doubled.
@@ -131,6 +148,9 @@ fn syntax(code: &RonError) -> String {
         }
         RonError::ExceededRecursionLimit => "the brackets are nested too deep",
         RonError::Eof => "the text ends too early; a bracket or a quote is not closed",
+        RonError::ExpectedDifferentLength { expected, found } => {
+            return format!("expected {expected}, not {found} of them");
+        }
         code => return code.to_string(),
     };
     message.to_owned()

@@ -165,7 +165,7 @@ fn wrong_types_and_names_are_refused_where_they_stand() {
         (
             "(0.1, 0.1, 0.05)",
             "(0.1, 0.1)",
-            "s.ron:10:33: Expected three numbers (x, y, z) but found 2",
+            "s.ron:10:33: expected three numbers (x, y, z), not 2 of them",
         ),
         (
             "(path: \"a.csv\")",
@@ -276,6 +276,15 @@ fn words_in_place_of_numbers_say_what_number_is_expected() {
     ] {
         let message = message(old, new);
         assert!(message.starts_with(start), "{new}: {message}");
+    }
+}
+
+#[test]
+fn single_values_in_place_of_three_numbers_are_refused_where_they_stand() {
+    for word in ["nan", "inf", "5cm", "5", "\"5\"", "true"] {
+        let message = message("(0.1, 0.1, 0.05)", word);
+        let expected = format!("s.ron:10:33: expected three numbers (x, y, z), not `{word}`");
+        assert_eq!(message, expected);
     }
 }
 
