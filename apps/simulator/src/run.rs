@@ -1,5 +1,6 @@
 //! `pliant run`: steps the servo and keeps what is asked for.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -211,10 +212,19 @@ impl<'a> Run<'a> {
 
     fn plot_data(&self, curves: Curves, times: &[u64], gauge: &Gauge) -> PlotData {
         let summary = &gauge.summary;
+        let names = self.built.world.object_names();
+        let touched = curves.touched.iter();
+        let touched: Vec<&str> = touched
+            .map(|&index| names[index as usize].as_str())
+            .collect();
+        let touched = match touched.len() {
+            2..=4 => format!("; touched: {}", touched.join(", ")),
+            _ => String::new(),
+        };
         PlotData {
             title: format!("{}, method {}", self.name, self.built.method.name()),
             subtitle: format!(
-                "{} s at {} Hz; {} of {} ticks in contact; at most {:.2} N",
+                "{} s at {} Hz; {} of {} ticks in contact; at most {:.2} N{touched}",
                 summary.seconds,
                 summary.rate_hz,
                 summary.contact_ticks,
@@ -228,6 +238,7 @@ impl<'a> Run<'a> {
             tick: times.iter().map(|&ns| ns as f64 * 1e-3).collect(),
             tick_note: summary.tick_ns.text(),
             contact: curves.contact,
+            held: curves.held,
         }
     }
 }
@@ -258,6 +269,9 @@ struct Curves {
     force: [Vec<f64>; 4],
     depth: Vec<f64>,
     contact: Vec<bool>,
+    held: Vec<bool>,
+    /// Indices of the objects that pressed most at some time.
+    touched: BTreeSet<u32>,
 }
 
 impl Curves {
@@ -274,6 +288,9 @@ impl Curves {
         }
         self.depth.push(output.penetration_of_haptic * 1e3);
         self.contact.push(output.contacts > 0);
+        self.held.push(output.held);
+        self.touched
+            .extend(output.contact.map(|contact| contact.object));
     }
 }
 

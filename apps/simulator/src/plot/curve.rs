@@ -41,6 +41,22 @@ pub(super) fn band(time: &[f64], values: &[f64], columns: usize) -> (Curve, Curv
     (low, middle, high)
 }
 
+/// Spans of time, each from a tick that is flagged to the next one that is not.
+pub(super) fn spans(time: &[f64], flags: &[bool]) -> Curve {
+    let mut spans: Curve = Vec::new();
+    let mut before = false;
+    for (index, (&now, &flag)) in time.iter().zip(flags).enumerate() {
+        let next = time.get(index + 1).copied().unwrap_or(now);
+        match (before, flag, spans.last_mut()) {
+            (true, true, Some(span)) => span.1 = next,
+            (false, true, _) => spans.push((now, next)),
+            _ => {}
+        }
+        before = flag;
+    }
+    spans
+}
+
 /// The ticks in at most `columns` runs of equal length.
 fn chunks<'a>(
     time: &'a [f64],
@@ -53,7 +69,16 @@ fn chunks<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::{band, decimated};
+    use super::{band, decimated, spans};
+
+    #[test]
+    fn spans_last_until_the_next_tick_that_is_not_flagged() {
+        let time = [0.0, 1.0, 2.0, 3.0, 4.0];
+        let flags = [true, false, true, true, false];
+        assert_eq!(spans(&time, &flags), [(0.0, 1.0), (2.0, 4.0)]);
+        assert!(spans(&time, &[false; 5]).is_empty());
+        assert_eq!(spans(&[0.5], &[true]), [(0.5, 0.5)]);
+    }
 
     #[test]
     fn no_spike_is_lost_and_few_points_remain() {
