@@ -33,9 +33,11 @@ impl Failure {
             }
             Self::Usage(message) => {
                 // In the words and colours of all other faults of usage.
-                let _ = Cli::command()
-                    .error(ErrorKind::ArgumentConflict, message)
-                    .print();
+                let mut command = Cli::command();
+                command.build();
+                let found = command.find_subcommand("run").cloned();
+                let mut command = found.unwrap_or(command);
+                let _ = command.error(ErrorKind::ArgumentConflict, message).print();
                 ExitCode::from(2)
             }
             Self::System(message) => {

@@ -171,7 +171,7 @@ struct Sheet<'a, 'b> {
 impl<'b> Sheet<'_, 'b> {
     /// A line of text with the part `before` of its width before the point `at`.
     fn write(&self, text: &str, at: (i32, i32), size: u32, before: f32) -> DrawResult {
-        self.area.draw(&Label {
+        Label {
             typeface: self.typeface,
             text,
             at,
@@ -179,8 +179,8 @@ impl<'b> Sheet<'_, 'b> {
             color: INK,
             before,
             run: Run::Right,
-        })?;
-        Ok(())
+        }
+        .draw(&self.area)
     }
 
     fn chart<'c>(&'c self, panel: &Panel) -> Result<Chart<'c, 'b>, Box<dyn std::error::Error>> {
@@ -237,7 +237,7 @@ impl<'b> Sheet<'_, 'b> {
         if let Some(time) = panel.time {
             self.write(time, (middle.0, middle.1 + at(px(48))), 22, 0.5)?;
         }
-        self.area.draw(&Label {
+        Label {
             typeface: self.typeface,
             text: panel.value,
             at: (at(px(24)), foot.1),
@@ -245,8 +245,8 @@ impl<'b> Sheet<'_, 'b> {
             color: INK,
             before: 0.5,
             run: Run::Up,
-        })?;
-        Ok(())
+        }
+        .draw(&self.area)
     }
 
     /// One entry in the row above the panel, from pixel `left`; where the next one begins.

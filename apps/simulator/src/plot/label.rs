@@ -1,12 +1,11 @@
 //! Text on the picture. The drawing library sets glyphs at whole pixels and without the room to their left, which tears
 //! words apart; here each one stands where the font puts it.
 
-use std::iter::{Once, once};
+use std::error::Error;
 
 use ab_glyph::{Font, FontRef, InvalidFont, ScaleFont, point};
-use plotters::element::{Drawable, PointCollection};
-use plotters::prelude::{Color, DrawingBackend, RGBColor};
-use plotters_backend::{BackendCoord, DrawingErrorKind};
+use plotters::coord::Shift;
+use plotters::prelude::{BitMapBackend, Color, DrawingArea, RGBColor};
 
 /// Height of capitals and digits over the font's line height.
 const CAPITALS: f32 = 0.6;
@@ -60,45 +59,33 @@ pub(super) struct Label<'a> {
     pub(super) run: Run,
 }
 
-impl<'a> PointCollection<'a, (i32, i32)> for &'a Label<'_> {
-    type Point = &'a (i32, i32);
-    type IntoIter = Once<&'a (i32, i32)>;
-
-    fn point_iter(self) -> Self::IntoIter {
-        once(&self.at)
-    }
-}
-
-impl<B: DrawingBackend> Drawable<B> for Label<'_> {
-    fn draw<I: Iterator<Item = BackendCoord>>(
+impl Label<'_> {
+    /// Onto an area whose first pixel is (0, 0).
+    pub(super) fn draw(
         &self,
-        points: I,
-        backend: &mut B,
-        _size: (u32, u32),
-    ) -> Result<(), DrawingErrorKind<B::ErrorType>> {
+        area: &DrawingArea<BitMapBackend<'_>, Shift>,
+    ) -> Result<(), Box<dyn Error>> {
         let (places, width) = self.typeface.set(self.text, self.size);
         let font = self.typeface.0.as_scaled(self.size as f32);
         let left = -width * self.before;
         let baseline = self.size as f32 * CAPITALS / 2.0;
-        for (at_x, at_y) in points {
-            for &(character, x) in &places {
-                let mut glyph = font.scaled_glyph(character);
-                glyph.position = point(left + x, baseline);
-                let Some(outline) = font.outline_glyph(glyph) else {
-                    continue;
+        for (character, x) in places {
+            let mut glyph = font.scaled_glyph(character);
+            glyph.position = point(left + x, baseline);
+            let Some(outline) = font.outline_glyph(glyph) else {
+                continue;
+            };
+            let corner = outline.px_bounds().min;
+            let mut covered = Vec::new();
+            outline.draw(|x, y, cover| covered.push((x, y, cover)));
+            for (x, y, cover) in covered {
+                let (x, y) = (whole(corner.x + x as f32), whole(corner.y + y as f32));
+                let pixel = match self.run {
+                    Run::Right => (self.at.0 + x, self.at.1 + y),
+                    Run::Up => (self.at.0 + y, self.at.1 - x),
                 };
-                let corner = outline.px_bounds().min;
-                let mut covered = Vec::new();
-                outline.draw(|x, y, cover| covered.push((x, y, cover)));
-                for (x, y, cover) in covered {
-                    let (x, y) = (whole(corner.x + x as f32), whole(corner.y + y as f32));
-                    let pixel = match self.run {
-                        Run::Right => (at_x + x, at_y + y),
-                        Run::Up => (at_x + y, at_y - x),
-                    };
-                    let color = self.color.mix(f64::from(cover.min(1.0)));
-                    backend.draw_pixel(pixel, color.to_backend_color())?;
-                }
+                let color = self.color.mix(f64::from(cover.min(1.0)));
+                area.draw_pixel(pixel, &color)?;
             }
         }
         Ok(())
