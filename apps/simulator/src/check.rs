@@ -160,7 +160,7 @@ fn surface(lines: &mut Lines, found: &MeshReport, mesh: &TriangleMesh, unit: Opt
             "convex",
             "no: the mesh encloses no volume and cannot be touched",
         ),
-        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason}")),
+        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason} (lengths in metres)")),
         (Err(_), None) => {
             lines.add(
                 "convex",

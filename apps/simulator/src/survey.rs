@@ -5,7 +5,7 @@ use pliant_collision::{SimplexCache, closest_points};
 use pliant_device::{Trajectory, WorkspaceMap};
 use pliant_mesh::Aabb;
 use pliant_scene::{BuiltScene, MethodName};
-use pliant_sim::{Tool, World};
+use pliant_sim::{RAMP_SECONDS, Tool, World};
 use pliant_spatial::Pose;
 
 /// Closest-point queries spent on a motion: about a second.
@@ -60,8 +60,8 @@ pub(crate) fn start(built: &BuiltScene) -> Option<String> {
     }
     let name = &built.world.object_names()[object];
     let ramp = match built.method {
-        MethodName::Constrained => "; the force rises over 0.5 s",
-        MethodName::Paper => "",
+        MethodName::Constrained => format!("; the force rises over {RAMP_SECONDS} s"),
+        MethodName::Paper => String::new(),
     };
     Some(format!(
         "inside {name}, {} deep{ramp}",

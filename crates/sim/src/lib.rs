@@ -9,7 +9,7 @@ mod tick;
 mod world;
 
 pub use judge::visual_penetration;
-pub use tick::{State, TickInput, TickOutput, tick};
+pub use tick::{RAMP_SECONDS, State, TickInput, TickOutput, tick};
 pub use world::{Method, Object, Tool, VirtualCoupling, World, WorldDescription, WorldError};
 
 #[cfg(doctest)]

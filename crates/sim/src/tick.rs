@@ -6,8 +6,8 @@ use pliant_spatial::{Pose, Wrench};
 
 use crate::{Method, World};
 
-/// Time over which the force rises from zero after a start inside an object [s].
-const RAMP_SECONDS: f64 = 0.5;
+/// Time over which the force of [`Method::Constrained`] rises from zero after a start inside an object [s].
+pub const RAMP_SECONDS: f64 = 0.5;
 
 /// What changes from tick to tick: both tools.
 #[derive(Clone, Debug)]

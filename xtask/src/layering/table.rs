@@ -94,6 +94,7 @@ pub(crate) const ROWS: &[Row] = &[
 
 /// Command line, window, plots, pictures, progress and result files of the application.
 const APPLICATION: &[&str] = &[
+    "ab_glyph",
     "anyhow",
     "clap",
     "eframe",
