@@ -2,6 +2,7 @@
 
 pub mod bodies;
 pub mod campaign;
+pub mod collision;
 pub mod hand;
 pub mod judge;
 pub mod motion;

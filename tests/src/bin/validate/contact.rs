@@ -1,30 +1,12 @@
-//! `validate contact [--full]`: the random campaigns of the separating-plane method, whole or as the subset that CI runs.
-#![allow(clippy::print_stdout, reason = "a command that prints its report")]
+//! The random campaigns of the separating-plane method, whole or as the subset that CI runs.
 
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::{Parser, ValueEnum};
-use pliant_tests::campaign::{Run, Verdict, campaign, full_runs, short_runs};
+use pliant_tests::campaign::{Run, Verdict, campaign};
 
-#[derive(Parser)]
-struct Arguments {
-    /// What to validate.
-    subject: Subject,
-    /// Every run instead of the fixed-seed subset.
-    #[arg(long)]
-    full: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Subject {
-    Contact,
-}
-
-fn main() -> ExitCode {
-    let Arguments { subject, full } = Arguments::parse();
-    let Subject::Contact = subject;
-    let runs = if full { full_runs() } else { short_runs() };
+/// Runs and judges `runs`.
+pub(crate) fn validate(runs: &[Run]) -> ExitCode {
     println!(
         "{:>18} {:>8} {:>3} {:>4} {:>6} {:>5} {:>5} {:>7} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>7} {:>6}",
         "setting",
@@ -48,7 +30,7 @@ fn main() -> ExitCode {
     );
     let mut failed = 0;
     let mut ticks = 0;
-    for run in &runs {
+    for run in runs {
         let start = Instant::now();
         let verdict = campaign(run);
         ticks += verdict.ticks;

@@ -1,0 +1,80 @@
+//! Reference pairs of convex shapes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use pliant_collision::SimplexCache;
+use pliant_tests::collision::reference::read;
+use pliant_tests::collision::verdict::judge;
+
+/// The reference file of this repository.
+pub(crate) fn open_file() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/collision-open.json")
+}
+
+/// What became of a family.
+#[derive(Default)]
+struct Family {
+    cases: u32,
+    worst_error: f64,
+    worst_share: f64,
+    /// Number of the case and reason.
+    failures: Vec<(u64, String)>,
+}
+
+/// Judges every pair of a file and prints the result per family.
+pub(crate) fn validate_file(path: &Path) -> ExitCode {
+    let reference = match read(path) {
+        Ok(reference) => reference,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let mut families: BTreeMap<&str, Family> = BTreeMap::new();
+    let mut caches: BTreeMap<[usize; 2], SimplexCache> = BTreeMap::new();
+    for case in &reference.cases {
+        let verdict = judge(&reference, case, caches.entry(case.shapes).or_default());
+        let family = families.entry(&case.family).or_default();
+        family.cases += 1;
+        family.worst_error = family.worst_error.max(verdict.worst_error);
+        family.worst_share = family.worst_share.max(verdict.worst_share);
+        let faults = verdict.faults.into_iter().map(|fault| (case.id, fault));
+        family.failures.extend(faults);
+    }
+    print_families(&families);
+    let mut failed: Vec<u64> = families
+        .values()
+        .flat_map(|family| family.failures.iter().map(|(id, _)| *id))
+        .collect();
+    failed.sort_unstable();
+    failed.dedup();
+    println!("{} cases, {} failed", reference.cases.len(), failed.len());
+    if failed.is_empty() {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn print_families(families: &BTreeMap<&str, Family>) {
+    println!(
+        "{:<26} {:>6} {:>15} {:>15} {:>8}",
+        "family", "cases", "worst error m", "/ tolerance", "failed"
+    );
+    for (name, family) in families {
+        let mut failed: Vec<u64> = family.failures.iter().map(|(id, _)| *id).collect();
+        failed.dedup();
+        println!(
+            "{name:<26} {:>6} {:>15.2e} {:>15.1e} {:>8}",
+            family.cases,
+            family.worst_error,
+            family.worst_share,
+            failed.len()
+        );
+        for (id, fault) in &family.failures {
+            println!("    FAILED: case {id}, {fault}");
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The judges of the collision crate: reference files, and random campaigns against an exhaustive oracle.
+//!
+//! The oracle shares no code with GJK and EPA: it enumerates faces, edges and vertices. What it says is proved per answer
+//! from both sides wherever shapes are apart, by a pair of points and by a pair of planes.
+
+pub mod core;
+pub mod exact;
+pub mod oracle;
+pub mod reference;
+pub mod shape;
+pub mod verdict;

@@ -1,0 +1,366 @@
+//! Signed distance of two polytopes by enumeration.
+//!
+//! g(n), the gap between the supporting planes across a unit direction n, never exceeds the signed distance, and reaches it
+//! for some n. In overlap that n is the normal of a face of the Minkowski difference: of a face of either body or of an
+//! edge of one and an edge of the other that support it at once (Gottschalk 1996). Apart, the distance is that of the nearest
+//! vertex-face or edge-edge pair, and g across it proves it.
+
+use glam::{DMat3, DVec3};
+use pliant_spatial::Pose;
+
+use super::core::{Core, Edge, Face, distance_to_segment, height_over};
+use super::exact::{Difference, cross};
+
+/// Slack of the test whether an edge supports a direction, relative to the core's size: superfluous directions cost time only.
+const SUPPORT_SLACK: f64 = 1e-9;
+
+/// What the oracle knows of a pair of cores.
+#[derive(Clone, Copy, Debug)]
+pub struct Truth {
+    /// Signed distance of the cores [m].
+    pub separation: f64,
+    /// The best direction found, from A to B, in A's frame.
+    pub normal: DVec3,
+    /// Distance of the nearest points found minus the gap of the planes [m]: how far the truth may be off. 0 in overlap, where
+    /// completeness of the enumeration stands for it.
+    pub doubt: f64,
+}
+
+/// Two cores at a placement, in A's axes about a point of A.
+pub struct Scene<'c> {
+    a: &'c Core,
+    b: &'c Core,
+    origin_in_a: DVec3,
+    origin_in_b: DVec3,
+    rotation: DMat3,
+    /// Of B's origin point.
+    offset: DVec3,
+    vertices_a: Vec<DVec3>,
+    vertices_b: Vec<DVec3>,
+    slack: [f64; 2],
+}
+
+impl<'c> Scene<'c> {
+    /// Places B.
+    pub fn new(a: &'c Core, b: &'c Core, a_from_b: &Pose) -> Self {
+        let rotation = DMat3::from_quat(a_from_b.rotation);
+        let (origin_in_a, origin_in_b) = (a.vertices[0], b.vertices[0]);
+        let offset = rotation * origin_in_b + (a_from_b.translation - origin_in_a);
+        let on_b = |&vertex: &DVec3| rotation * (vertex - origin_in_b) + offset;
+        Self {
+            a,
+            b,
+            origin_in_a,
+            origin_in_b,
+            rotation,
+            offset,
+            vertices_a: a.vertices.iter().map(|&v| v - origin_in_a).collect(),
+            vertices_b: b.vertices.iter().map(on_b).collect(),
+            slack: [a, b].map(|core| SUPPORT_SLACK * core.extent()),
+        }
+    }
+
+    /// Gap between the supporting planes across a unit direction in A's frame, from A to B [m].
+    pub fn gap(&self, normal: DVec3) -> f64 {
+        lowest(&self.vertices_b, normal) - highest(&self.vertices_a, normal)
+    }
+
+    /// Largest coordinate of the difference [m]: what rounding is relative to.
+    pub fn span(&self) -> f64 {
+        self.offset.length() + self.a.extent() + self.b.extent()
+    }
+
+    /// Distance of a point in A's frame from the core of A, and of a point in B's frame from that of B [m].
+    pub fn distances(&self, point_in_a: DVec3, point_in_b: DVec3) -> [f64; 2] {
+        [
+            self.a.distance_to(point_in_a),
+            self.b.distance_to(point_in_b),
+        ]
+    }
+
+    /// A point in A's frame as one in B's.
+    pub fn in_b(&self, point_in_a: DVec3) -> DVec3 {
+        let relative = (point_in_a - self.origin_in_a) - self.offset;
+        self.rotation.transpose() * relative + self.origin_in_b
+    }
+
+    /// The signed distance of the cores.
+    pub fn truth(&self) -> Truth {
+        let mut best = Best {
+            gap: f64::NEG_INFINITY,
+            normal: DVec3::X,
+        };
+        self.try_faces(&mut best);
+        self.try_edges(&mut best);
+        // Well inside: no pair of features is near the truth. On the edge of it, flat cores may lie beside each other.
+        if best.gap.is_finite() && best.gap < -1e-10 * self.span() {
+            return Truth {
+                separation: best.gap,
+                normal: best.normal,
+                doubt: 0.0,
+            };
+        }
+        let nearest = self.nearest_features(best.normal);
+        if let Some(direction) = nearest.direction.try_normalize() {
+            best.offer(self.gap(direction), direction);
+        }
+        if !best.gap.is_finite() {
+            let across = self.any_direction_across();
+            best.offer(self.gap(across), across);
+        }
+        let apart = best.gap > 0.0 && best.gap > nearest.distance - 1e-9 * self.span();
+        Truth {
+            separation: if apart { nearest.distance } else { best.gap },
+            normal: best.normal,
+            doubt: if apart {
+                nearest.distance - best.gap
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// For points and sticks in one line that share a point: level along any direction across the line.
+    fn any_direction_across(&self) -> DVec3 {
+        let placed = |vertices: &[DVec3], edge: &Edge| Placed::new(edge, vertices).along.rounded();
+        let a = self
+            .a
+            .edges
+            .iter()
+            .map(|edge| placed(&self.vertices_a, edge));
+        let b = self
+            .b
+            .edges
+            .iter()
+            .map(|edge| placed(&self.vertices_b, edge));
+        a.chain(b)
+            .find_map(DVec3::try_normalize)
+            .map_or(DVec3::X, |along| along.any_orthonormal_vector())
+    }
+
+    fn try_faces(&self, best: &mut Best) {
+        for Face {
+            normal, two_sided, ..
+        } in &self.a.triangles
+        {
+            best.offer(self.gap(*normal), *normal);
+            if *two_sided {
+                best.offer(self.gap(-*normal), -*normal);
+            }
+        }
+        for Face {
+            normal, two_sided, ..
+        } in &self.b.triangles
+        {
+            let normal = self.rotation * -*normal;
+            best.offer(self.gap(normal), normal);
+            if *two_sided {
+                best.offer(self.gap(-normal), -normal);
+            }
+        }
+    }
+
+    fn try_edges(&self, best: &mut Best) {
+        for edge_a in &self.a.edges {
+            let on_a = Placed::new(edge_a, &self.vertices_a);
+            for edge_b in &self.b.edges {
+                let on_b = Placed::new(edge_b, &self.vertices_b);
+                let normal = cross(&on_a.along, &on_b.along);
+                let length = normal.length();
+                if length == 0.0 {
+                    continue;
+                }
+                for normal in [normal, -normal] {
+                    if on_a.supports(normal, self.slack[0] * length)
+                        && on_b.supports(-normal, self.slack[1] * length)
+                    {
+                        let normal = normal / length;
+                        best.offer(self.gap(normal), normal);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Nearest pair of vertex and face, edge and edge, or vertex and edge, sought between the supporting planes across
+    /// `normal` widened by the distance known so far: nothing nearer lies outside.
+    fn nearest_features(&self, normal: DVec3) -> Nearest {
+        let mut nearest = Nearest {
+            distance: f64::INFINITY,
+            direction: DVec3::ZERO,
+        };
+        self.try_vertices_on_edges(&mut nearest);
+        let top = highest(&self.vertices_a, normal);
+        let bottom = lowest(&self.vertices_b, normal);
+        let reach = nearest.distance * (1.0 + 1e-9) + 1e-12 * self.span();
+        let near_a = |index: u32| self.vertices_a[index as usize].dot(normal) >= bottom - reach;
+        let near_b = |index: u32| self.vertices_b[index as usize].dot(normal) <= top + reach;
+        let faces_a = self
+            .a
+            .triangles
+            .iter()
+            .filter(|f| f.corners.iter().any(|&c| near_a(c)));
+        for face in faces_a {
+            let corners = face.corners.map(|c| self.vertices_a[c as usize]);
+            for &vertex in &self.vertices_b {
+                if let Some(height) = height_over(vertex, &corners, face.normal) {
+                    nearest.offer(height.abs(), face.normal * height.signum());
+                }
+            }
+        }
+        let faces_b = self
+            .b
+            .triangles
+            .iter()
+            .filter(|f| f.corners.iter().any(|&c| near_b(c)));
+        for face in faces_b {
+            let corners = face.corners.map(|c| self.vertices_b[c as usize]);
+            let normal = self.rotation * face.normal;
+            for &vertex in &self.vertices_a {
+                if let Some(height) = height_over(vertex, &corners, normal) {
+                    nearest.offer(height.abs(), normal * -height.signum());
+                }
+            }
+        }
+        let near_edges = |edge: &&Edge| edge.ends.iter().any(|&end| near_b(end));
+        let edges_b: Vec<Placed> = self
+            .b
+            .edges
+            .iter()
+            .filter(near_edges)
+            .map(|edge| Placed::new(edge, &self.vertices_b))
+            .collect();
+        for edge in self
+            .a
+            .edges
+            .iter()
+            .filter(|e| e.ends.iter().any(|&end| near_a(end)))
+        {
+            let on_a = Placed::new(edge, &self.vertices_a);
+            for on_b in &edges_b {
+                on_a.try_crossing(on_b, &mut nearest);
+            }
+        }
+        nearest
+    }
+
+    fn try_vertices_on_edges(&self, nearest: &mut Nearest) {
+        let foot = |point: DVec3, p: DVec3, q: DVec3| {
+            let edge = q - p;
+            let length_squared = edge.length_squared();
+            if length_squared == 0.0 {
+                return point - p;
+            }
+            let along = (point - p).dot(edge) / length_squared;
+            if along <= 0.0 {
+                return point - p;
+            }
+            if along >= 1.0 {
+                return point - q;
+            }
+            let rejection = (point - p) - edge * along;
+            rejection - edge * (rejection.dot(edge) / length_squared)
+        };
+        for edge in &self.a.edges {
+            let [p, q] = edge.ends.map(|end| self.vertices_a[end as usize]);
+            for &vertex in &self.vertices_b {
+                let direction = foot(vertex, p, q);
+                if direction.length() < nearest.distance {
+                    nearest.offer(distance_to_segment(vertex, p, q), direction);
+                }
+            }
+        }
+        for edge in &self.b.edges {
+            let [p, q] = edge.ends.map(|end| self.vertices_b[end as usize]);
+            for &vertex in &self.vertices_a {
+                let direction = foot(vertex, p, q);
+                if direction.length() < nearest.distance {
+                    nearest.offer(distance_to_segment(vertex, p, q), -direction);
+                }
+            }
+        }
+    }
+}
+
+struct Best {
+    gap: f64,
+    normal: DVec3,
+}
+
+impl Best {
+    fn offer(&mut self, gap: f64, normal: DVec3) {
+        if gap > self.gap {
+            *self = Self { gap, normal };
+        }
+    }
+}
+
+struct Nearest {
+    distance: f64,
+    /// From A to B, of any length.
+    direction: DVec3,
+}
+
+impl Nearest {
+    fn offer(&mut self, distance: f64, direction: DVec3) {
+        if distance < self.distance {
+            *self = Self {
+                distance,
+                direction,
+            };
+        }
+    }
+}
+
+/// An edge in A's frame.
+struct Placed {
+    start: DVec3,
+    along: Difference,
+    sides: [DVec3; 2],
+}
+
+impl Placed {
+    fn new(edge: &Edge, vertices: &[DVec3]) -> Self {
+        let [start, end] = edge.ends.map(|end| vertices[end as usize]);
+        Self {
+            start,
+            along: Difference::new(start, end),
+            sides: edge.sides.map(|side| vertices[side as usize]),
+        }
+    }
+
+    /// Whether neither face beside the edge rises along the direction, which is perpendicular to the edge.
+    fn supports(&self, direction: DVec3, slack: f64) -> bool {
+        let rises = |side: DVec3| direction.dot(side - self.start) > slack;
+        !rises(self.sides[0]) && !rises(self.sides[1])
+    }
+
+    /// Offers the distance across the common perpendicular, if its feet lie in both edges.
+    fn try_crossing(&self, other: &Self, nearest: &mut Nearest) {
+        let normal = cross(&self.along, &other.along);
+        let length_squared = normal.length_squared();
+        if length_squared == 0.0 {
+            return;
+        }
+        let between = other.start - self.start;
+        let height = between.dot(normal) / length_squared.sqrt();
+        if height.abs() >= nearest.distance {
+            return;
+        }
+        let on_self = between.cross(other.along.rounded()).dot(normal) / length_squared;
+        let on_other = between.cross(self.along.rounded()).dot(normal) / length_squared;
+        if (0.0..=1.0).contains(&on_self) && (0.0..=1.0).contains(&on_other) {
+            nearest.offer(height.abs(), normal * height.signum());
+        }
+    }
+}
+
+fn highest(vertices: &[DVec3], direction: DVec3) -> f64 {
+    vertices.iter().fold(f64::NEG_INFINITY, |best, vertex| {
+        best.max(vertex.dot(direction))
+    })
+}
+
+fn lowest(vertices: &[DVec3], direction: DVec3) -> f64 {
+    -highest(vertices, -direction)
+}
