@@ -3,9 +3,15 @@
 //! The oracle shares no code with GJK and EPA: it enumerates faces, edges and vertices. What it says is proved per answer
 //! from both sides wherever shapes are apart, by a pair of points and by a pair of planes.
 
+pub mod answer;
+pub mod campaign;
 pub mod core;
 pub mod exact;
+pub mod families;
+pub mod kinds;
 pub mod oracle;
+pub mod placement;
 pub mod reference;
 pub mod shape;
+pub mod snippet;
 pub mod verdict;

@@ -74,6 +74,8 @@ fn flat_and_thin_cores_have_distances_too() {
         (&stick, &stick, at(3.0, 4.0, 1.0), 5.0),
         (&point, &point, at(0.0, 3.0, 4.0), 5.0),
         (&point, &stick, at(0.0, 0.0, 0.5), 0.0),
+        // Not quite on it: the direction between the two is noise.
+        (&point, &stick, at(1e-17, 0.0, 1.0), 0.0),
         (&point, &point, at(0.0, 0.0, 0.0), 0.0),
         (&stick, &stick, at(0.0, 0.0, 1.0), 0.0),
     ] {

@@ -26,6 +26,8 @@ pub struct Face {
     pub corners: [u32; 3],
     /// Unit normal.
     pub normal: DVec3,
+    /// Lowest and highest vertex of the core along the normal, relative to its first vertex [m].
+    pub heights: [f64; 2],
     /// Whether the opposite of the normal may be outward too.
     pub two_sided: bool,
 }
@@ -165,6 +167,8 @@ impl Core {
                 core.vertices.push(point);
             }
         }
+        let corners: Vec<[u32; 3]> = core.triangles.iter().map(|face| face.corners).collect();
+        core.triangles = faces(&core.vertices, corners.into_iter(), false);
         core
     }
 
@@ -239,9 +243,14 @@ fn faces(
         .filter_map(|corners| {
             let [p, q, r] = corners.map(|corner| vertices[corner as usize]);
             let normal = cross(&Difference::new(p, q), &Difference::new(p, r)).try_normalize()?;
+            let heights = vertices.iter().map(|&v| (v - vertices[0]).dot(normal));
+            let ends = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                [height.min(low), height.max(high)]
+            });
             Some(Face {
                 corners,
                 normal,
+                heights: ends,
                 two_sided,
             })
         })

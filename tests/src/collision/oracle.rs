@@ -93,7 +93,10 @@ impl<'c> Scene<'c> {
         self.try_faces(&mut best);
         self.try_edges(&mut best);
         // Well inside: no pair of features is near the truth. On the edge of it, flat cores may lie beside each other.
-        if best.gap.is_finite() && best.gap < -1e-10 * self.span() {
+        if !best.gap.is_finite() {
+            let across = self.any_direction_across();
+            best.offer(self.gap(across), across);
+        } else if best.gap < -1e-10 * self.span() {
             return Truth {
                 separation: best.gap,
                 normal: best.normal,
@@ -103,10 +106,6 @@ impl<'c> Scene<'c> {
         let nearest = self.nearest_features(best.normal);
         if let Some(direction) = nearest.direction.try_normalize() {
             best.offer(self.gap(direction), direction);
-        }
-        if !best.gap.is_finite() {
-            let across = self.any_direction_across();
-            best.offer(self.gap(across), across);
         }
         let apart = best.gap > 0.0 && best.gap > nearest.distance - 1e-9 * self.span();
         Truth {
@@ -139,39 +138,48 @@ impl<'c> Scene<'c> {
     }
 
     fn try_faces(&self, best: &mut Best) {
-        for Face {
-            normal, two_sided, ..
-        } in &self.a.triangles
-        {
-            best.offer(self.gap(*normal), *normal);
-            if *two_sided {
-                best.offer(self.gap(-*normal), -*normal);
+        for face in &self.a.triangles {
+            let normal = face.normal;
+            best.offer(lowest(&self.vertices_b, normal) - face.heights[1], normal);
+            if face.two_sided {
+                best.offer(lowest(&self.vertices_b, -normal) + face.heights[0], -normal);
             }
         }
-        for Face {
-            normal, two_sided, ..
-        } in &self.b.triangles
-        {
-            let normal = self.rotation * -*normal;
-            best.offer(self.gap(normal), normal);
-            if *two_sided {
-                best.offer(self.gap(-normal), -normal);
+        for face in &self.b.triangles {
+            let normal = self.rotation * -face.normal;
+            let level = normal.dot(self.offset);
+            // No direction is worth a look that B's plane over A's first vertex, the origin, already rules out.
+            if level - face.heights[1] > best.gap {
+                let top = highest(&self.vertices_a, normal);
+                best.offer(level - face.heights[1] - top, normal);
+            }
+            if face.two_sided && face.heights[0] - level > best.gap {
+                let top = highest(&self.vertices_a, -normal);
+                best.offer(face.heights[0] - level - top, -normal);
             }
         }
     }
 
     fn try_edges(&self, best: &mut Best) {
+        let edges_b: Vec<Placed> = self
+            .b
+            .edges
+            .iter()
+            .map(|edge| Placed::new(edge, &self.vertices_b))
+            .collect();
         for edge_a in &self.a.edges {
             let on_a = Placed::new(edge_a, &self.vertices_a);
-            for edge_b in &self.b.edges {
-                let on_b = Placed::new(edge_b, &self.vertices_b);
+            for on_b in &edges_b {
                 let normal = cross(&on_a.along, &on_b.along);
                 let length = normal.length();
                 if length == 0.0 {
                     continue;
                 }
-                for normal in [normal, -normal] {
-                    if on_a.supports(normal, self.slack[0] * length)
+                // The gap across the direction is at most the height of these two edges over each other.
+                let height = normal.dot(on_b.start - on_a.start);
+                for (normal, height) in [(normal, height), (-normal, -height)] {
+                    if height > best.gap * length
+                        && on_a.supports(normal, self.slack[0] * length)
                         && on_b.supports(-normal, self.slack[1] * length)
                     {
                         let normal = normal / length;
@@ -193,8 +201,12 @@ impl<'c> Scene<'c> {
         let top = highest(&self.vertices_a, normal);
         let bottom = lowest(&self.vertices_b, normal);
         let reach = nearest.distance * (1.0 + 1e-9) + 1e-12 * self.span();
-        let near_a = |index: u32| self.vertices_a[index as usize].dot(normal) >= bottom - reach;
-        let near_b = |index: u32| self.vertices_b[index as usize].dot(normal) <= top + reach;
+        let heights = |vertices: &[DVec3]| -> Vec<f64> {
+            vertices.iter().map(|vertex| vertex.dot(normal)).collect()
+        };
+        let [heights_a, heights_b] = [heights(&self.vertices_a), heights(&self.vertices_b)];
+        let near_a = |index: u32| heights_a[index as usize] >= bottom - reach;
+        let near_b = |index: u32| heights_b[index as usize] <= top + reach;
         let faces_a = self
             .a
             .triangles

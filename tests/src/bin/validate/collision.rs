@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use pliant_collision::SimplexCache;
+use pliant_tests::collision::campaign::{Extent, Report, run};
 use pliant_tests::collision::reference::read;
 use pliant_tests::collision::verdict::judge;
 
@@ -77,4 +78,64 @@ fn print_families(families: &BTreeMap<&str, Family>) {
             println!("    FAILED: case {id}, {fault}");
         }
     }
+}
+
+/// The reference file and the whole campaign.
+pub(crate) fn validate_all(extent: Extent) -> ExitCode {
+    let file = validate_file(&open_file());
+    let report = run(extent);
+    print_report(&report);
+    let passed = report.total(|row| row.failed) == 0;
+    if passed && file == ExitCode::SUCCESS {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+fn print_report(report: &Report) {
+    println!(
+        "{:<16} {:<10} {:>8} {:>10} {:>10} {:>9} {:>9} {:>8}",
+        "family", "class", "pairs", "placements", "worst/size", "> 1e-12", "undecided", "failed"
+    );
+    for ((family, class), row) in &report.rows {
+        println!(
+            "{:<16} {:<10} {:>8} {:>10} {:>10.1e} {:>9} {:>9} {:>8}  {}",
+            format!("{family:?}"),
+            format!("{class:?}"),
+            row.pairs,
+            row.placements,
+            row.worst,
+            row.blurred,
+            row.undecided,
+            row.failed,
+            row.faults
+                .iter()
+                .map(|(fault, count)| format!("{fault:?} {count}"))
+                .collect::<Vec<_>>()
+                .join(", ")
+        );
+    }
+    for failure in &report.failures {
+        let item = failure.item;
+        println!(
+            "FAILED: {:?} {:?} number {}, step {} ({}), signed distance {:e} m: {:?}\n{}",
+            item.family,
+            item.kinds,
+            item.index,
+            failure.step,
+            failure.how,
+            failure.truth,
+            failure.faults,
+            failure.snippet
+        );
+    }
+    println!(
+        "{} pairs, {} placements, {} above 1e-12 of the size, {} undecided, {} failed",
+        report.total(|row| row.pairs),
+        report.total(|row| row.placements),
+        report.total(|row| row.blurred),
+        report.total(|row| row.undecided),
+        report.total(|row| row.failed)
+    );
 }

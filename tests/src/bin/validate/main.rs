@@ -14,6 +14,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use pliant_tests::campaign::{full_runs, short_runs};
+use pliant_tests::collision::campaign::Extent;
 
 #[derive(Parser)]
 struct Arguments {
@@ -30,10 +31,17 @@ enum Subject {
         #[arg(long)]
         full: bool,
     },
-    /// Reference pairs of convex shapes
+    /// Reference pairs of convex shapes, or random pairs against the oracle
     Collision {
         /// A file of the format "convex-pairs-1"; the one of this repository when none is named
+        #[arg(conflicts_with = "full")]
         file: Option<PathBuf>,
+        /// The file of this repository and then more than 10⁶ random pairs
+        #[arg(long)]
+        full: bool,
+        /// Random pairs of each family and two kinds of shape
+        #[arg(long, requires = "full", default_value_t = Extent::FULL.pairs_per_cell)]
+        pairs_per_cell: u32,
     },
 }
 
@@ -41,7 +49,15 @@ fn main() -> ExitCode {
     match Arguments::parse().subject {
         Subject::Contact { full: true } => contact::validate(&full_runs()),
         Subject::Contact { full: false } => contact::validate(&short_runs()),
-        Subject::Collision { file } => {
+        Subject::Collision {
+            full: true,
+            pairs_per_cell,
+            ..
+        } => collision::validate_all(Extent {
+            pairs_per_cell,
+            ..Extent::FULL
+        }),
+        Subject::Collision { file, .. } => {
             collision::validate_file(&file.unwrap_or_else(collision::open_file))
         }
     }

@@ -1,0 +1,241 @@
+//! The verdict on one answer of the crate, by the oracle and by the answer's own certificate.
+
+use glam::{DQuat, DVec3};
+use pliant_collision::{
+    ClosestPoints, SimplexCache, cast_shape, closest_points, distance, overlap,
+};
+use pliant_spatial::Pose;
+
+use super::families::Pair;
+use super::oracle::Scene;
+use super::shape::Shape;
+
+/// Largest error allowed, relative to the size.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Errors above this share of the size are counted: a good implementation leaves none on ordinary pairs.
+pub const BLUR: f64 = 1e-12;
+
+/// What a unit vector's length may be off.
+const UNIT_SLACK: f64 = 1e-12;
+
+/// Doubt of the oracle, relative to the coordinates, above which it is no judge.
+const ORACLE_SLACK: f64 = 1e-12;
+
+/// What an answer got wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// A number that is none.
+    NotFinite,
+    /// The signed distance.
+    Separation,
+    /// The length of the normal.
+    NotUnit,
+    /// The supporting planes across the normal are not as far apart as the separation says.
+    Normal,
+    /// The witness points are not apart by separation times normal.
+    Contract,
+    /// A witness point lies outside its shape.
+    Outside,
+    /// `distance` disagrees.
+    Distance,
+    /// `overlap` disagrees.
+    Overlap,
+    /// A cast along the normal does not hit after the separation.
+    Cast,
+    /// The answer proves the oracle wrong.
+    Oracle,
+}
+
+/// How one answer went.
+#[derive(Clone, Debug, Default)]
+pub struct Verdict {
+    /// Error of the separation, relative to the size.
+    pub error: f64,
+    /// What went wrong, with how much of the size by.
+    pub faults: Vec<(Fault, f64)>,
+}
+
+impl Verdict {
+    fn limit(&mut self, fault: Fault, measure: f64, limit: f64) {
+        // What is not a number is above every limit.
+        if measure.is_nan() || measure > limit {
+            self.faults.push((fault, measure));
+        }
+    }
+}
+
+/// A pair at a placement with the truth about it.
+pub struct Question<'p> {
+    shapes: [&'p Shape; 2],
+    a_from_b: Pose,
+    size: f64,
+    scene: Scene<'p>,
+    /// Signed distance of the rounded shapes [m].
+    truth: f64,
+    /// The oracle cannot say.
+    pub undecided: bool,
+    /// Error that rounding alone may cause [m].
+    rounding: f64,
+}
+
+impl<'p> Question<'p> {
+    /// Asks the oracle.
+    pub fn new(pair: &'p Pair, a_from_b: &Pose) -> Self {
+        let [a, b] = [&*pair.shapes[0], &*pair.shapes[1]];
+        let scene = Scene::new(&a.core, &b.core, a_from_b);
+        let truth = scene.truth();
+        let far = |shape: &Shape| shape.core.vertices[0].length();
+        let span = scene.span() + far(a) + far(b);
+        Self {
+            shapes: [a, b],
+            a_from_b: *a_from_b,
+            size: pair.size,
+            truth: truth.separation - (a.radius + b.radius),
+            undecided: truth.doubt.is_nan() || truth.doubt.abs() > ORACLE_SLACK * span,
+            rounding: 1e-14 * span,
+            scene,
+        }
+    }
+
+    /// The truth [m].
+    pub fn separation(&self) -> f64 {
+        self.truth
+    }
+
+    fn ask<R>(
+        &self,
+        f: impl FnOnce(&dyn pliant_collision::SupportMap, &dyn pliant_collision::SupportMap) -> R,
+    ) -> R {
+        let [a, b] = self.shapes;
+        a.with(|a| b.with(|b| f(a, b)))
+    }
+
+    /// Judges the answer from `cache`.
+    pub fn closest(&self, cache: &mut SimplexCache) -> Verdict {
+        let found = self.ask(|a, b| closest_points(a, b, &self.a_from_b, cache));
+        let mut verdict = Verdict::default();
+        self.judge(&found, &mut verdict);
+        verdict
+    }
+
+    /// Judges all other queries, from scratch and from the cache of another pair.
+    pub fn others(&self, foreign: &SimplexCache) -> Verdict {
+        let mut verdict = Verdict::default();
+        self.swapped(&mut verdict);
+        let mut cache = *foreign;
+        let found = self.ask(|a, b| closest_points(a, b, &self.a_from_b, &mut cache));
+        self.judge(&found, &mut verdict);
+        // Within rounding of touching either answer is right.
+        let band = BLUR * self.size + self.rounding;
+        for cache in [SimplexCache::default(), *foreign] {
+            let mut fresh = cache;
+            let meets = self.ask(|a, b| overlap(a, b, &self.a_from_b, &mut fresh));
+            if self.truth.abs() > band && meets != (self.truth < 0.0) {
+                verdict
+                    .faults
+                    .push((Fault::Overlap, self.truth / self.size));
+            }
+            let mut fresh = cache;
+            match self.ask(|a, b| distance(a, b, &self.a_from_b, &mut fresh)) {
+                Some(found) => self.judge(&found, &mut verdict),
+                None => verdict.limit(Fault::Distance, self.truth, band),
+            }
+        }
+        self.cast(&found, &mut verdict);
+        verdict
+    }
+
+    fn swapped(&self, verdict: &mut Verdict) {
+        let back = self.a_from_b.rotation.conjugate();
+        let b_from_a = Pose::new(back, -(back * self.a_from_b.translation));
+        let mut cache = SimplexCache::default();
+        let found = self.ask(|a, b| closest_points(b, a, &b_from_a, &mut cache));
+        let there = |point: DVec3| self.a_from_b.rotation * point;
+        self.judge(
+            &ClosestPoints {
+                witness_a: there(found.witness_b) + self.a_from_b.translation,
+                witness_b: there(found.witness_a) + self.a_from_b.translation,
+                normal: -there(found.normal),
+                separation: found.separation,
+            },
+            verdict,
+        );
+    }
+
+    /// B thrown at A along the normal from where it is apart meets A after the separation: the distance falls one to one.
+    fn cast(&self, found: &ClosestPoints, verdict: &mut Verdict) {
+        let expected = self.truth / self.size;
+        if self.truth <= BLUR * self.size + self.rounding {
+            return;
+        }
+        let motion = -found.normal * (self.truth + 0.25 * self.size);
+        let mut cache = SimplexCache::default();
+        let hit = self.ask(|a, b| cast_shape(a, b, &self.a_from_b, motion, &mut cache));
+        let Some(hit) = hit else {
+            verdict.faults.push((Fault::Cast, expected));
+            return;
+        };
+        let travelled = hit.fraction * motion.length();
+        let allowed = TOLERANCE + self.rounding / self.size;
+        verdict.limit(
+            Fault::Cast,
+            (travelled - self.truth).abs() / self.size,
+            allowed,
+        );
+        // The plane met is the one that was separating.
+        let length = hit.normal.length();
+        verdict.limit(Fault::Cast, (length - 1.0).abs(), UNIT_SLACK);
+    }
+
+    fn judge(&self, found: &ClosestPoints, verdict: &mut Verdict) {
+        let ClosestPoints {
+            witness_a,
+            witness_b,
+            normal,
+            separation,
+        } = *found;
+        let finite = witness_a.is_finite() && witness_b.is_finite() && normal.is_finite();
+        if !finite || !separation.is_finite() {
+            verdict.faults.push((Fault::NotFinite, f64::NAN));
+            return;
+        }
+        let tolerance = TOLERANCE + self.rounding / self.size;
+        let error = (separation - self.truth).abs() / self.size;
+        verdict.error = verdict.error.max(error);
+        if !self.undecided {
+            verdict.limit(Fault::Separation, error, tolerance);
+        }
+        verdict.limit(Fault::NotUnit, (normal.length() - 1.0).abs(), UNIT_SLACK);
+        let [radius_a, radius_b] = self.shapes.map(|shape| shape.radius);
+        let gap = self.scene.gap(normal) - (radius_a + radius_b);
+        verdict.limit(Fault::Normal, (separation - gap) / self.size, tolerance);
+        verdict.limit(Fault::Oracle, (gap - self.truth) / self.size, tolerance);
+        let oblique = (witness_b - witness_a) - normal * separation;
+        verdict.limit(Fault::Contract, oblique.length() / self.size, tolerance);
+        let [core_a, core_b] = self.scene.distances(witness_a, self.scene.in_b(witness_b));
+        let outside = (core_a - radius_a).max(core_b - radius_b);
+        verdict.limit(Fault::Outside, outside / self.size, tolerance);
+    }
+}
+
+/// Twenty small steps from a placement.
+pub fn walk(
+    start: &Pose,
+    size: f64,
+    centre_in_b: DVec3,
+    random: &mut rand_chacha::ChaCha8Rng,
+) -> Vec<Pose> {
+    use rand::Rng;
+    let mut pose = *start;
+    (0..20)
+        .map(|_| {
+            let turn = super::kinds::unit(random) * random.random_range(1e-3..1e-2);
+            let step = super::kinds::unit(random) * (size * random.random_range(1e-4..5e-3));
+            let rotation = (DQuat::from_scaled_axis(turn) * pose.rotation).normalize();
+            let centre = pose.transform_point(centre_in_b) + step;
+            pose = Pose::new(rotation, centre - rotation * centre_in_b);
+            pose
+        })
+        .collect()
+}
