@@ -3,6 +3,7 @@
 pub mod bodies;
 pub mod campaign;
 pub mod collision;
+pub mod collision_bench;
 pub mod hand;
 pub mod judge;
 pub mod motion;

@@ -8,7 +8,7 @@
 use glam::{DMat3, DVec3};
 use pliant_spatial::Pose;
 
-use super::core::{Core, Edge, Face, distance_to_segment, height_over};
+use super::core::{Core, Edge, distance_to_segment, height_over};
 use super::exact::{Difference, cross};
 
 /// Slack of the test whether an edge supports a direction, relative to the core's size: superfluous directions cost time only.

@@ -1,12 +1,11 @@
-//! `bench tick [--json FILE]`: time of one tick, both methods, one and ten segments, 800 and 12,672 faces.
-#![allow(clippy::print_stdout, reason = "a command that prints its report")]
+//! Time of one tick: both methods, one and ten segments, 800, 12,672 and 998,000 faces.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::time::Instant;
 
-use anyhow::{Context, Result};
-use clap::{Parser, ValueEnum};
+use anyhow::Result;
 use pliant_contact::PaperParameters;
+use pliant_mesh::ConvexMesh;
 use pliant_sim::{
     Method, Object, State, TickInput, VirtualCoupling, World, WorldDescription, tick,
 };
@@ -15,20 +14,6 @@ use pliant_tests::bodies::{ToolKind, latitude_longitude};
 use pliant_tests::campaign::PERIOD;
 use pliant_tests::motion::{shaft_slide, tip_slide};
 use serde::Serialize;
-
-#[derive(Parser)]
-struct Arguments {
-    /// What to measure.
-    subject: Subject,
-    /// Where the figures go.
-    #[arg(long, default_value = "target/bench/tick.json")]
-    json: PathBuf,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Subject {
-    Tick,
-}
 
 /// Ticks of one pass over a motion.
 const TICKS: u32 = 4000;
@@ -49,9 +34,8 @@ struct Row {
     max_ns: u64,
 }
 
-fn main() -> Result<()> {
-    let Arguments { subject, json } = Arguments::parse();
-    let Subject::Tick = subject;
+/// Measures, prints and writes all rows.
+pub(crate) fn run(json: &Path) -> Result<()> {
     println!(
         "{:>12} {:>12} {:>7} {:>9} {:>8} {:>9} {:>9} {:>9} {:>9}",
         "method",
@@ -64,36 +48,31 @@ fn main() -> Result<()> {
         "p99.9 µs",
         "max µs"
     );
+    let objects = [(20, 21), (96, 67), (1000, 500)]
+        .map(|(sectors, bands)| latitude_longitude(sectors, bands));
     let mut rows = Vec::new();
     for (name, method) in [
         ("constrained", Method::Constrained),
         ("paper", Method::Paper(PaperParameters::default())),
     ] {
-        for (sectors, bands) in [(20, 21), (96, 67)] {
+        for object in &objects {
             for segments in [1, 10] {
-                let tip = world(sectors, bands, ToolKind::Cone, segments, method);
+                let tip = world(object.clone(), ToolKind::Cone, segments, method);
                 rows.push(row(name, "tip slide", &tip, tip_slide(2e-3)));
-                let shaft = world(sectors, bands, ToolKind::Rod, segments, method);
+                let shaft = world(object.clone(), ToolKind::Rod, segments, method);
                 rows.push(row(name, "shaft turning", &shaft, shaft_slide(2e-3, 1.5)));
             }
         }
     }
-    if let Some(folder) = json.parent() {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("creating {}", folder.display()))?;
-    }
-    std::fs::write(&json, serde_json::to_string_pretty(&rows)?)
-        .with_context(|| format!("writing {}", json.display()))?;
-    println!("written to {}", json.display());
-    Ok(())
+    crate::write_json(json, &rows)
 }
 
-fn world(sectors: u32, bands: u32, tool: ToolKind, segments: u32, method: Method) -> World {
+fn world(shape: ConvexMesh, tool: ToolKind, segments: u32, method: Method) -> World {
     World::new(WorldDescription {
         tool: tool.tool(segments),
         objects: vec![Object {
             name: "ellipsoid".to_owned(),
-            shape: latitude_longitude(sectors, bands),
+            shape,
             world_from_object: Pose::IDENTITY,
             shading_threshold: None,
         }],
