@@ -265,7 +265,7 @@ impl Report {
             ("other queries", question.separation(), undecided),
             others,
         );
-        if item.index % WALK_EVERY != 0 {
+        if !item.index.is_multiple_of(WALK_EVERY) {
             return;
         }
         let mut random = ChaCha8Rng::seed_from_u64(item.seed() ^ 1);

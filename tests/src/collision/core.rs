@@ -130,6 +130,9 @@ impl Core {
     }
 
     /// A plane convex polygon given in order around it.
+    ///
+    /// # Panics
+    /// With more than 2³² corners.
     pub fn polygon(outline: &[DVec3]) -> Self {
         let count = u32::try_from(outline.len()).expect("few points");
         let fan = (1..count - 1).map(|i| [0, i, i + 1]);

@@ -85,6 +85,6 @@ mod tests {
             DVec3::new(1.0, 1.0, 0.0),
         );
         assert_eq!(v.rounded(), DVec3::new(1.0, 1.0, 0.0));
-        assert_eq!(cross(&u, &v).z, 2f64.powi(-60));
+        assert_eq!(cross(&u, &v), DVec3::Z * 2f64.powi(-60));
     }
 }

@@ -96,7 +96,11 @@ impl Family {
     pub fn pair(self, kinds: [Kind; 2], seed: u64) -> Pair {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let forms = self.forms(&mut random);
-        let a = kinds[0].shape(&forms[0], &mut random);
+        let first = match self {
+            Self::Identical => kinds[random.random_range(0..2)],
+            _ => kinds[0],
+        };
+        let a = first.shape(&forms[0], &mut random);
         let b = match self {
             Self::Identical => a.clone(),
             _ => kinds[1].shape(&forms[1], &mut random),

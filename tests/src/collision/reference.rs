@@ -12,7 +12,7 @@ use super::shape::{Body, Shape, hull};
 /// Name of the format, as the files say it.
 pub const FORMAT: &str = "convex-pairs-1";
 
-/// How far a matrix may be from a rotation, in any entry of RᵀR.
+/// How far a matrix may be from a rotation, in any entry of its square `RᵀR`.
 const ROTATION_SLACK: f64 = 1e-9;
 
 /// A file's content, checked.
@@ -151,30 +151,7 @@ fn shape(spec: &ShapeSpec) -> Result<Shape> {
             let ends = [DVec3::NEG_Z * *half_length, DVec3::Z * *half_length];
             Ok(Shape::new(Body::Segment(ends), *radius))
         }
-        ShapeSpec::Hull { vertices, faces } => {
-            ensure!(!vertices.is_empty(), "a hull without vertices");
-            ensure!(
-                vertices.iter().all(|vertex| vertex.is_finite()),
-                "a vertex is not finite"
-            );
-            let mut triangles = Vec::new();
-            for (number, face) in faces.iter().enumerate() {
-                ensure!(
-                    face.len() >= 3,
-                    "faces[{number}] has {} corners",
-                    face.len()
-                );
-                let past = face
-                    .iter()
-                    .find(|&&corner| corner as usize >= vertices.len());
-                if let Some(corner) = past {
-                    let count = vertices.len();
-                    anyhow::bail!("faces[{number}] names vertex {corner} of {count}");
-                }
-                triangles.extend((1..face.len() - 1).map(|i| [face[0], face[i], face[i + 1]]));
-            }
-            Ok(hull(vertices.clone(), triangles))
-        }
+        ShapeSpec::Hull { vertices, faces } => checked_hull(vertices, faces),
         ShapeSpec::Latlong {
             slices,
             stacks,
@@ -192,6 +169,31 @@ fn shape(spec: &ShapeSpec) -> Result<Shape> {
             Ok(hull(vertices, triangles))
         }
     }
+}
+
+fn checked_hull(vertices: &[DVec3], faces: &[Vec<u32>]) -> Result<Shape> {
+    ensure!(!vertices.is_empty(), "a hull without vertices");
+    ensure!(
+        vertices.iter().all(|vertex| vertex.is_finite()),
+        "a vertex is not finite"
+    );
+    let mut triangles = Vec::new();
+    for (number, face) in faces.iter().enumerate() {
+        ensure!(
+            face.len() >= 3,
+            "faces[{number}] has {} corners",
+            face.len()
+        );
+        let past = face
+            .iter()
+            .find(|&&corner| corner as usize >= vertices.len());
+        if let Some(corner) = past {
+            let count = vertices.len();
+            anyhow::bail!("faces[{number}] names vertex {corner} of {count}");
+        }
+        triangles.extend((1..face.len() - 1).map(|i| [face[0], face[i], face[i + 1]]));
+    }
+    Ok(hull(vertices.to_vec(), triangles))
 }
 
 fn case(pair: Pair, shapes: usize) -> Result<Case> {

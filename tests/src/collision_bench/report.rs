@@ -129,57 +129,59 @@ fn factor(rows: &[Row]) -> f64 {
 /// Target cold, target coherent, listed cold, listed coherent; all in ns, 0 where there is none.
 type Figures = [f64; 4];
 
+const SEPARATED: State = State::Separated;
+const SHALLOW: State = State::Deep(0.001);
+const DEEP: State = State::Deep(0.01);
+const DEEPEST: State = State::Deep(0.1);
+
+const FIGURES: [(Bodies, State, Figures); 18] = [
+    (Bodies::Boxes, SEPARATED, [300.0, 150.0, 351.0, 286.0]),
+    (Bodies::Boxes, SHALLOW, [0.0, 0.0, 703.0, 605.0]),
+    (Bodies::Boxes, DEEP, [650.0, 400.0, 929.0, 669.0]),
+    (Bodies::Boxes, DEEPEST, [0.0, 0.0, 1648.0, 1249.0]),
+    (
+        Bodies::CapsuleHull32,
+        SEPARATED,
+        [370.0, 200.0, 2018.0, 1444.0],
+    ),
+    (
+        Bodies::CapsuleHull32,
+        DEEP,
+        [800.0, 300.0, 13_447.0, 9000.0],
+    ),
+    (Bodies::CapsuleHull32, DEEPEST, [0.0, 0.0, 13_872.0, 6422.0]),
+    (Bodies::Hulls64, SEPARATED, [0.0, 0.0, 1872.0, 1842.0]),
+    (Bodies::Hulls64, DEEP, [0.0, 0.0, 3887.0, 3345.0]),
+    (
+        Bodies::PrismEllipsoid,
+        SEPARATED,
+        [2000.0, 500.0, 94e3, 55e3],
+    ),
+    (
+        Bodies::PrismEllipsoid,
+        SHALLOW,
+        [3500.0, 1000.0, 127e3, 103e3],
+    ),
+    (Bodies::PrismEllipsoid, DEEP, [4000.0, 1000.0, 128e3, 115e3]),
+    (
+        Bodies::PrismEllipsoid,
+        DEEPEST,
+        [5000.0, 1000.0, 152e3, 143e3],
+    ),
+    (
+        Bodies::CapsuleEllipsoid,
+        SEPARATED,
+        [0.0, 400.0, 149e3, 86e3],
+    ),
+    (Bodies::CapsuleEllipsoid, DEEP, [0.0, 400.0, 242e3, 226e3]),
+    (Bodies::PrismMillion, SEPARATED, [0.0; 4]),
+    (Bodies::PrismMillion, DEEP, [0.0; 4]),
+    (Bodies::CapsuleMillion, DEEP, [0.0; 4]),
+];
+
 fn cells() -> Vec<Cell> {
-    const SEPARATED: State = State::Separated;
-    const SHALLOW: State = State::Deep(0.001);
-    const DEEP: State = State::Deep(0.01);
-    const DEEPEST: State = State::Deep(0.1);
-    let figures: [(Bodies, State, Figures); 18] = [
-        (Bodies::Boxes, SEPARATED, [300.0, 150.0, 351.0, 286.0]),
-        (Bodies::Boxes, SHALLOW, [0.0, 0.0, 703.0, 605.0]),
-        (Bodies::Boxes, DEEP, [650.0, 400.0, 929.0, 669.0]),
-        (Bodies::Boxes, DEEPEST, [0.0, 0.0, 1648.0, 1249.0]),
-        (
-            Bodies::CapsuleHull32,
-            SEPARATED,
-            [370.0, 200.0, 2018.0, 1444.0],
-        ),
-        (
-            Bodies::CapsuleHull32,
-            DEEP,
-            [800.0, 300.0, 13_447.0, 9000.0],
-        ),
-        (Bodies::CapsuleHull32, DEEPEST, [0.0, 0.0, 13_872.0, 6422.0]),
-        (Bodies::Hulls64, SEPARATED, [0.0, 0.0, 1872.0, 1842.0]),
-        (Bodies::Hulls64, DEEP, [0.0, 0.0, 3887.0, 3345.0]),
-        (
-            Bodies::PrismEllipsoid,
-            SEPARATED,
-            [2000.0, 500.0, 94e3, 55e3],
-        ),
-        (
-            Bodies::PrismEllipsoid,
-            SHALLOW,
-            [3500.0, 1000.0, 127e3, 103e3],
-        ),
-        (Bodies::PrismEllipsoid, DEEP, [4000.0, 1000.0, 128e3, 115e3]),
-        (
-            Bodies::PrismEllipsoid,
-            DEEPEST,
-            [5000.0, 1000.0, 152e3, 143e3],
-        ),
-        (
-            Bodies::CapsuleEllipsoid,
-            SEPARATED,
-            [0.0, 400.0, 149e3, 86e3],
-        ),
-        (Bodies::CapsuleEllipsoid, DEEP, [0.0, 400.0, 242e3, 226e3]),
-        (Bodies::PrismMillion, SEPARATED, [0.0; 4]),
-        (Bodies::PrismMillion, DEEP, [0.0; 4]),
-        (Bodies::CapsuleMillion, DEEP, [0.0; 4]),
-    ];
     let some = |figure: f64| (figure > 0.0).then_some(figure);
-    figures
+    FIGURES
         .into_iter()
         .flat_map(|(bodies, state, figures)| {
             let modes = [Mode::Cold, Mode::Coherent];

@@ -1,8 +1,5 @@
 //! A tick allocates nothing: a counting allocator watches the ticks of both methods, device and servo included.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
 use pliant_contact::PaperParameters;
 use pliant_device::{ScriptedDevice, TimedPose, Trajectory, WorkspaceMap};
 use pliant_servo::{Rate, Servo, ServoParts};
@@ -10,45 +7,7 @@ use pliant_sim::{Method, State, TickInput, VirtualCoupling, World, WorldDescript
 use pliant_tests::bodies::{Setting, ToolKind, handle_with_tip, world};
 use pliant_tests::hand::RandomHand;
 
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-fn count() {
-    // A thread that is shutting down has no counter any more, and nothing here looks at it.
-    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
-}
-
-#[expect(unsafe_code, reason = "the global allocator's interface is unsafe")]
-// SAFETY: every call is handed to the system allocator unchanged; counting touches a thread-local integer only.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        // SAFETY: the caller's promise is passed on.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-fn allocations() -> u64 {
-    ALLOCATIONS.with(Cell::get)
-}
+use crate::allocations;
 
 /// A hand's path over the object, 5 s.
 fn trajectory() -> Trajectory {

@@ -1,0 +1,83 @@
+//! Queries of the collision crate, on all shapes, apart and deep, with cold and warm caches, and those of the mesh hierarchy.
+
+use glam::DVec3;
+use pliant_collision::{
+    SimplexCache, TriangleBvh, cast_ray, cast_shape, closest_points, distance, overlap,
+};
+use pliant_mesh::{Aabb, generate};
+use pliant_tests::collision::families::{Family, Pair};
+use pliant_tests::collision::kinds::Kind;
+
+use crate::allocations;
+
+/// Asks everything of a pair twice with one cache; the signed distance.
+fn ask_all(pair: &Pair) -> f64 {
+    let [a, b] = &pair.shapes;
+    let pose = &pair.a_from_b;
+    let mut cache = SimplexCache::default();
+    let mut separation = 0.0;
+    a.with(|a| {
+        b.with(|b| {
+            for _ in 0..2 {
+                let found = closest_points(a, b, pose, &mut cache);
+                separation = found.separation;
+                distance(a, b, pose, &mut cache);
+                overlap(a, b, pose, &mut cache);
+                let motion = found.normal * (-2.0 * pair.size);
+                cast_shape(a, b, pose, motion, &mut cache);
+            }
+            cast_ray(a, DVec3::splat(3.0), DVec3::splat(-1.0).normalize(), 10.0);
+        });
+    });
+    separation
+}
+
+#[test]
+fn no_query_of_convex_shapes_allocates() {
+    let families = [
+        Family::Apart,
+        Family::Penetrating,
+        Family::FacesParallel,
+        Family::Identical,
+        Family::Concentric,
+        Family::Flat,
+    ];
+    let (mut apart, mut deep) = (0, 0);
+    for family in families {
+        for (number, &a) in Kind::SMALL.iter().enumerate() {
+            for &b in Kind::SMALL[number..].iter().chain(&[Kind::Ellipsoid]) {
+                for seed in 0..4 {
+                    let pair = family.pair([a, b], seed);
+                    let before = allocations();
+                    let separation = ask_all(&pair);
+                    let count = allocations() - before;
+                    assert_eq!(count, 0, "{family:?} {a:?} {b:?} {seed}");
+                    apart += u32::from(separation > 0.0);
+                    deep += u32::from(separation < -0.01 * pair.size);
+                }
+            }
+        }
+    }
+    assert!(apart > 500 && deep > 500, "{apart} apart, {deep} deep");
+}
+
+#[test]
+fn no_query_of_the_mesh_hierarchy_allocates() {
+    let radii = DVec3::new(0.06, 0.05, 0.04);
+    let mesh = generate::latitude_longitude_ellipsoid(radii, 96, 67).expect("enough sectors");
+    let bvh = TriangleBvh::new(&mesh);
+    let before = allocations();
+    let (mut met, mut hits) = (0, 0);
+    for step in 0..1000 {
+        let angle = f64::from(step) * 0.1;
+        let point = DVec3::new(angle.cos(), angle.sin(), 0.3 * angle.sin()) * 0.07;
+        bvh.overlapping(&Aabb::from_points(&[point]).inflated(0.02), |_| met += 1);
+        hits += u32::from(
+            bvh.cast_ray(&mesh, point, -point.normalize(), 1.0)
+                .is_some(),
+        );
+        hits += u32::from(bvh.closest_point(&mesh, point, 1.0).is_some());
+    }
+    assert_eq!(allocations() - before, 0);
+    assert!(met > 1000 && hits == 2000, "{met} met, {hits} hits");
+}
