@@ -15,6 +15,10 @@ use pliant_tests::campaign::PERIOD;
 use pliant_tests::motion::{shaft_slide, tip_slide};
 use serde::Serialize;
 
+/// Faces of the object that the finest one is compared with.
+const BASE_FACES: usize = 12_672;
+/// A tick on the finest object may take so many times as long.
+const SIZE_LIMIT: f64 = 1.5;
 /// Ticks of one pass over a motion.
 const TICKS: u32 = 4000;
 /// A tick's time is its smallest over so many passes, which removes what the machine did meanwhile.
@@ -64,7 +68,35 @@ pub(crate) fn run(json: &Path) -> Result<()> {
             }
         }
     }
+    compare_sizes(&rows);
     crate::write_json(json, &rows)
+}
+
+/// Each figure on the finest object beside the one on 12,672 faces: it may be [`SIZE_LIMIT`] times as much.
+fn compare_sizes(rows: &[Row]) {
+    let finest = rows.iter().map(|row| row.faces).max().unwrap_or(0);
+    for row in rows.iter().filter(|row| row.faces == finest) {
+        let same = |other: &&Row| {
+            (other.method, other.motion, other.segments) == (row.method, row.motion, row.segments)
+        };
+        let Some(base) = rows
+            .iter()
+            .filter(same)
+            .find(|other| other.faces == BASE_FACES)
+        else {
+            continue;
+        };
+        let ratio = |of: fn(&Row) -> u64| of(row) as f64 / of(base) as f64;
+        let (p50, p99) = (ratio(|row| row.p50_ns), ratio(|row| row.p99_ns));
+        let met = p50.max(p99) <= SIZE_LIMIT;
+        println!(
+            "{:>12} {:>13} {:>2} segments: {finest} faces cost {p50:.2} times {BASE_FACES} at p50, {p99:.2} at p99: {}",
+            row.method,
+            row.motion,
+            row.segments,
+            if met { "met" } else { "MISSED" }
+        );
+    }
 }
 
 fn world(shape: ConvexMesh, tool: ToolKind, segments: u32, method: Method) -> World {
