@@ -1,6 +1,6 @@
 //! The verdict on one answer of the crate, by the oracle and by the answer's own certificate.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use pliant_collision::{
     ClosestPoints, SimplexCache, cast_shape, closest_points, distance, overlap,
 };
@@ -219,23 +219,56 @@ impl<'p> Question<'p> {
     }
 }
 
-/// Twenty small steps from a placement.
-pub fn walk(
-    start: &Pose,
-    size: f64,
-    centre_in_b: DVec3,
-    random: &mut rand_chacha::ChaCha8Rng,
-) -> Vec<Pose> {
-    use rand::Rng;
-    let mut pose = *start;
-    (0..20)
-        .map(|_| {
-            let turn = super::kinds::unit(random) * random.random_range(1e-3..1e-2);
-            let step = super::kinds::unit(random) * (size * random.random_range(1e-4..5e-3));
-            let rotation = (DQuat::from_scaled_axis(turn) * pose.rotation).normalize();
-            let centre = pose.transform_point(centre_in_b) + step;
-            pose = Pose::new(rotation, centre - rotation * centre_in_b);
-            pose
-        })
-        .collect()
+#[cfg(test)]
+mod tests {
+    use super::{Fault, Question, Verdict};
+    use crate::collision::families::Pair;
+    use crate::collision::shape::{Body, Shape};
+    use glam::DVec3;
+    use pliant_collision::ClosestPoints;
+    use pliant_spatial::Pose;
+    use std::sync::Arc;
+
+    /// Unit cubes `gap` [m] apart along x, and the right answer.
+    fn cubes(gap: f64) -> (Pair, ClosestPoints) {
+        let cube = Arc::new(Shape::new(Body::Cuboid(DVec3::splat(0.5)), 0.0));
+        let pair = Pair {
+            shapes: [cube.clone(), cube],
+            a_from_b: Pose::from_translation(DVec3::X * (1.0 + gap)),
+            size: 1.0,
+        };
+        let found = ClosestPoints {
+            witness_a: DVec3::new(0.5, 0.1, 0.2),
+            witness_b: DVec3::new(0.5 + gap, 0.1, 0.2),
+            normal: DVec3::X,
+            separation: gap,
+        };
+        (pair, found)
+    }
+
+    fn faults(gap: f64, spoil: impl Fn(&mut ClosestPoints)) -> Vec<Fault> {
+        let (pair, mut found) = cubes(gap);
+        spoil(&mut found);
+        let mut verdict = Verdict::default();
+        Question::new(&pair, &pair.a_from_b).judge(&found, &mut verdict);
+        verdict.faults.into_iter().map(|(fault, _)| fault).collect()
+    }
+
+    #[test]
+    fn right_answers_pass_and_each_fault_is_seen() {
+        for gap in [0.25, 0.0, -0.125] {
+            assert_eq!(faults(gap, |_| ()), []);
+            assert!(faults(gap, |f| f.separation += 2e-9).contains(&Fault::Separation));
+            assert!(faults(gap, |f| f.normal *= 1.0 + 1e-11).contains(&Fault::NotUnit));
+            assert!(faults(gap, |f| f.normal = -f.normal).contains(&Fault::Normal));
+            assert!(faults(gap, |f| f.normal = DVec3::Y).contains(&Fault::Normal));
+            assert!(faults(gap, |f| f.witness_b.y += 2e-9).contains(&Fault::Contract));
+            assert_eq!(faults(gap, |f| f.normal.x = f64::NAN), [Fault::NotFinite]);
+            let shifted = |f: &mut ClosestPoints| {
+                f.witness_a.y += 0.5;
+                f.witness_b.y += 0.5;
+            };
+            assert_eq!(faults(gap, shifted), [Fault::Outside]);
+        }
+    }
 }

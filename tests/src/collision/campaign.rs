@@ -8,8 +8,8 @@ use pliant_collision::SimplexCache;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::answer::{BLUR, Fault, Question, Verdict, walk};
-use super::families::{Family, Pair};
+use super::answer::{BLUR, Fault, Question, Verdict};
+use super::families::{Family, Pair, walk};
 use super::kinds::Kind;
 use super::snippet::snippet;
 

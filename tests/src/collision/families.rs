@@ -224,3 +224,18 @@ pub fn power(random: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
 pub fn rotation(random: &mut ChaCha8Rng) -> DQuat {
     DQuat::from_axis_angle(unit(random), random.random_range(0.0..std::f64::consts::PI))
 }
+
+/// Twenty small steps from a placement.
+pub fn walk(start: &Pose, size: f64, centre_in_b: DVec3, random: &mut ChaCha8Rng) -> Vec<Pose> {
+    let mut pose = *start;
+    (0..20)
+        .map(|_| {
+            let turn = unit(random) * random.random_range(1e-3..1e-2);
+            let step = unit(random) * (size * random.random_range(1e-4..5e-3));
+            let rotation = (DQuat::from_scaled_axis(turn) * pose.rotation).normalize();
+            let centre = pose.transform_point(centre_in_b) + step;
+            pose = Pose::new(rotation, centre - rotation * centre_in_b);
+            pose
+        })
+        .collect()
+}
