@@ -34,7 +34,7 @@ impl Extent {
 
     /// Seconds.
     pub const SHORT: Self = Self {
-        pairs_per_cell: 4,
+        pairs_per_cell: 24,
         ellipsoid_pairs: 2,
     };
 }

@@ -11,6 +11,7 @@ type Double = (f64, f64);
 pub struct Difference {
     high: DVec3,
     low: DVec3,
+    length_squared: f64,
 }
 
 impl Difference {
@@ -19,12 +20,21 @@ impl Difference {
         let high = q - p;
         let back = high - q;
         let low = (q - (high - back)) - (p + back);
-        Self { high, low }
+        Self {
+            high,
+            low,
+            length_squared: high.length_squared(),
+        }
     }
 
     /// Rounded to the nearest.
     pub fn rounded(&self) -> DVec3 {
         self.high
+    }
+
+    /// Its square.
+    pub fn length_squared(&self) -> f64 {
+        self.length_squared
     }
 
     fn component(&self, axis: usize) -> Double {
@@ -33,12 +43,18 @@ impl Difference {
 }
 
 /// Cross product, right to rounding in every component that is not smaller than 1e-28 of the lengths multiplied.
+#[inline]
 pub fn cross(u: &Difference, v: &Difference) -> DVec3 {
     let plain = u.high.cross(v.high);
     // The plain product is wrong by 1e-16 of the lengths multiplied: no matter where it is not small.
-    if plain.length_squared() > 1e-4 * u.high.length_squared() * v.high.length_squared() {
+    if plain.length_squared() > 1e-4 * u.length_squared * v.length_squared {
         return plain;
     }
+    exact_cross(u, v)
+}
+
+#[cold]
+fn exact_cross(u: &Difference, v: &Difference) -> DVec3 {
     let part = |i: usize, j: usize| {
         minor(
             [u.component(i), v.component(j)],

@@ -173,17 +173,17 @@ impl<'c> Scene<'c> {
             let on_a = Placed::new(edge_a, &self.vertices_a);
             for on_b in &edges_b {
                 let normal = cross(&on_a.along, &on_b.along);
-                let length = normal.length();
-                if length == 0.0 {
-                    continue;
-                }
-                // The gap across the direction is at most the height of these two edges over each other.
-                let height = normal.dot(on_b.start - on_a.start);
-                for (normal, height) in [(normal, height), (-normal, -height)] {
-                    if height > best.gap * length
-                        && on_a.supports(normal, self.slack[0] * length)
-                        && on_b.supports(-normal, self.slack[1] * length)
-                    {
+                // At least the length of the normal: a little more slack than asked for, and no root.
+                let most = on_a.length * on_b.length;
+                let slack = self.slack.map(|slack| slack * most);
+                for normal in [normal, -normal] {
+                    if !on_a.supports(normal, slack[0]) || !on_b.supports(-normal, slack[1]) {
+                        continue;
+                    }
+                    // The gap across a direction is at most the height of these two edges over each other.
+                    let length = normal.length();
+                    let height = normal.dot(on_b.start - on_a.start);
+                    if length > 0.0 && height > best.gap * length {
                         let normal = normal / length;
                         best.offer(self.gap(normal), normal);
                     }
@@ -210,15 +210,18 @@ impl Best {
 struct Placed {
     start: DVec3,
     along: Difference,
+    length: f64,
     sides: [DVec3; 2],
 }
 
 impl Placed {
     fn new(edge: &Edge, vertices: &[DVec3]) -> Self {
         let [start, end] = edge.ends.map(|end| vertices[end as usize]);
+        let along = Difference::new(start, end);
         Self {
             start,
-            along: Difference::new(start, end),
+            along,
+            length: along.length_squared().sqrt(),
             sides: edge.sides.map(|side| vertices[side as usize]),
         }
     }
