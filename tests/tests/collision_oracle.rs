@@ -102,6 +102,19 @@ fn reference_pairs_agree() {
     }
 }
 
+/// Rounding puts points of the seam between the two triangles beside both.
+#[test]
+fn seams_of_polygons_belong_to_them() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for _ in 0..1000 {
+        let corner = |angle: f64| DVec3::new(angle.cos(), 0.7 * angle.sin(), 0.0);
+        let start = random.random_range(0.0..1.0);
+        let corners = [0.0, 1.4, 2.9, 4.6].map(|angle| corner(angle + start));
+        let seam = corners[0].lerp(corners[2], random.random_range(0.0..1.0));
+        assert!(Core::polygon(&corners).distance_to(seam) < 1e-15);
+    }
+}
+
 fn random_hull(random: &mut ChaCha8Rng, count: usize) -> ConvexMesh {
     let points: Vec<DVec3> = (0..count).map(|_| unit(random)).collect();
     ConvexMesh::hull(&points).expect("points on a sphere span a hull")

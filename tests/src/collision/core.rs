@@ -136,15 +136,19 @@ impl Core {
     pub fn polygon(outline: &[DVec3]) -> Self {
         let count = u32::try_from(outline.len()).expect("few points");
         let fan = (1..count - 1).map(|i| [0, i, i + 1]);
-        let edges = (0..count)
-            .map(|i| {
-                let opposite = (i + count / 2 + 1) % count;
-                Edge {
-                    ends: [i, (i + 1) % count],
-                    sides: [opposite; 2],
-                }
-            })
-            .collect();
+        let outer = (0..count).map(|i| {
+            let opposite = (i + count / 2 + 1) % count;
+            Edge {
+                ends: [i, (i + 1) % count],
+                sides: [opposite; 2],
+            }
+        });
+        // Else a point over the seam of two triangles could be over neither, by rounding.
+        let seams = (2..count - 1).map(|i| Edge {
+            ends: [0, i],
+            sides: [0, i],
+        });
+        let edges = outer.chain(seams).collect();
         Self {
             vertices: outline.to_vec(),
             triangles: faces(outline, fan, true),
