@@ -15,12 +15,14 @@ mod cast;
 mod climb;
 mod epa;
 mod gjk;
+mod mesh_query;
 mod shapes;
 mod simplex;
 mod support;
 
-pub use bvh::{SurfacePoint, TriangleBvh};
+pub use bvh::{ObjectBvh, SurfacePoint, TriangleBvh};
 pub use cast::{CastHit, RayHit, cast_ray, cast_shape};
 pub use gjk::{ClosestPoints, SimplexCache, closest_points, distance, overlap};
+pub use mesh_query::{MeshCache, MeshCastHit, MeshContact, MeshFeature};
 pub use shapes::{Cuboid, Point, PointSet, Rounded, Segment, Triangle};
 pub use support::{SupportMap, SupportPoint};

@@ -57,6 +57,10 @@ impl SupportMap for Point {
     fn interior_point(&self) -> DVec3 {
         self.0
     }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        Some([self.0; 2])
+    }
 }
 
 impl SupportMap for Segment {
@@ -74,6 +78,10 @@ impl SupportMap for Segment {
 
     fn interior_point(&self) -> DVec3 {
         self.a.midpoint(self.b)
+    }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        Some([self.a, self.b])
     }
 }
 
@@ -152,6 +160,10 @@ impl<S: SupportMap> SupportMap for Rounded<S> {
 
     fn interior_point(&self) -> DVec3 {
         self.core.interior_point()
+    }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        self.core.core_segment()
     }
 }
 

@@ -35,6 +35,11 @@ pub trait SupportMap {
 
     /// Some point of the core [m], at a bounded cost: local origin of the algorithms and first guess.
     fn interior_point(&self) -> DVec3;
+
+    /// The ends of the core [m] where it is a segment, or a point as two equal ends: allows closed forms.
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        None
+    }
 }
 
 impl<S: SupportMap + ?Sized> SupportMap for &S {
@@ -52,6 +57,10 @@ impl<S: SupportMap + ?Sized> SupportMap for &S {
 
     fn interior_point(&self) -> DVec3 {
         (**self).interior_point()
+    }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        (**self).core_segment()
     }
 }
 

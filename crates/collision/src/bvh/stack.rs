@@ -1,56 +1,34 @@
-//! Stack of tree traversals: on the machine stack for any tree met in practice, on the heap beyond.
+//! Stack of tree traversals, on the machine stack: trees are never deeper than it holds.
 
-/// Binary trees over 10⁶ triangles are about 40 deep.
-const INLINE: usize = 96;
+/// Most edges between a tree's root and a leaf. Trees over 10⁶ triangles are about 40 deep; a tree that would be deeper is
+/// built balanced instead (see [`super::tree`]), which 2³² leaves do in 32.
+pub(super) const DEPTH_LIMIT: usize = 62;
+
+/// Room of a depth-first traversal: one waiting sibling per level, and the node at hand.
+const ROOM: usize = DEPTH_LIMIT + 2;
 
 /// Node indices with their bounds.
-pub(super) struct Stack {
-    inline: [(u32, f64); INLINE],
+pub(crate) struct Stack {
+    entries: [(u32, f64); ROOM],
     len: usize,
-    spilled: Vec<(u32, f64)>,
 }
 
 impl Stack {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
-            inline: [(0, 0.0); INLINE],
+            entries: [(0, 0.0); ROOM],
             len: 0,
-            spilled: Vec::new(),
         }
     }
 
-    pub(super) fn push(&mut self, node: u32, bound: f64) {
-        if self.len < INLINE {
-            self.inline[self.len] = (node, bound);
-            self.len += 1;
-        } else {
-            self.spilled.push((node, bound));
-        }
+    /// Never full: a traversal that pushes both children of the node it popped holds at most depth + 1 entries.
+    pub(crate) fn push(&mut self, node: u32, bound: f64) {
+        self.entries[self.len] = (node, bound);
+        self.len += 1;
     }
 
-    pub(super) fn pop(&mut self) -> Option<(u32, f64)> {
-        if let Some(top) = self.spilled.pop() {
-            return Some(top);
-        }
+    pub(crate) fn pop(&mut self) -> Option<(u32, f64)> {
         self.len = self.len.checked_sub(1)?;
-        Some(self.inline[self.len])
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{INLINE, Stack};
-
-    #[test]
-    fn last_in_is_first_out_across_the_spill() {
-        let mut stack = Stack::new();
-        let count = u32::try_from(2 * INLINE).expect("small");
-        for node in 0..count {
-            stack.push(node, f64::from(node));
-        }
-        for node in (0..count).rev() {
-            assert_eq!(stack.pop(), Some((node, f64::from(node))));
-        }
-        assert_eq!(stack.pop(), None);
+        Some(self.entries[self.len])
     }
 }
