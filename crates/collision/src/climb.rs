@@ -2,7 +2,7 @@
 //! neighbour of it, whatever the number of faces.
 
 use glam::DVec3;
-use pliant_mesh::ConvexMesh;
+use pliant_mesh::{ConvexMesh, FaceId};
 
 use crate::shapes::{numbered, scan};
 use crate::support::{SupportMap, SupportPoint};
@@ -48,5 +48,18 @@ impl SupportMap for ConvexMesh {
 
     fn interior_point(&self) -> DVec3 {
         self.centroid()
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "faces are numbered by u32 throughout"
+    )]
+    fn core_face_count(&self) -> u32 {
+        self.topology().face_count() as u32
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        self.topology()
+            .face_normal(FaceId(face.min(self.core_face_count() - 1)))
     }
 }

@@ -12,6 +12,7 @@ use crate::bvh::TriangleBvh;
 use crate::{ClosestPoints, SupportMap};
 
 mod cast;
+mod faces;
 mod front;
 mod minima;
 mod placed;

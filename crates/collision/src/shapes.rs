@@ -123,6 +123,15 @@ impl SupportMap for Cuboid {
     fn interior_point(&self) -> DVec3 {
         DVec3::ZERO
     }
+
+    fn core_face_count(&self) -> u32 {
+        6
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        let axis = DVec3::AXES[(face / 2).min(2) as usize];
+        if face.is_multiple_of(2) { axis } else { -axis }
+    }
 }
 
 impl SupportMap for PointSet<'_> {
@@ -164,6 +173,14 @@ impl<S: SupportMap> SupportMap for Rounded<S> {
 
     fn core_segment(&self) -> Option<[DVec3; 2]> {
         self.core.core_segment()
+    }
+
+    fn core_face_count(&self) -> u32 {
+        self.core.core_face_count()
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        self.core.core_face(face)
     }
 }
 

@@ -40,6 +40,16 @@ pub trait SupportMap {
     fn core_segment(&self) -> Option<[DVec3; 2]> {
         None
     }
+
+    /// How many faces [`SupportMap::core_face`] lists: all of the core's, or none where that would be many or is unknown.
+    fn core_face_count(&self) -> u32 {
+        0
+    }
+
+    /// Outward unit normal of a face of the core; all together, the planes in which they support it bound the core.
+    fn core_face(&self, _face: u32) -> DVec3 {
+        DVec3::ZERO
+    }
 }
 
 impl<S: SupportMap + ?Sized> SupportMap for &S {
@@ -61,6 +71,14 @@ impl<S: SupportMap + ?Sized> SupportMap for &S {
 
     fn core_segment(&self) -> Option<[DVec3; 2]> {
         (**self).core_segment()
+    }
+
+    fn core_face_count(&self) -> u32 {
+        (**self).core_face_count()
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        (**self).core_face(face)
     }
 }
 

@@ -13,6 +13,7 @@ use crate::bvh::TriangleBvh;
 use crate::bvh::stack::Stack;
 use crate::{ClosestPoints, SimplexCache, SupportMap};
 
+use super::faces::Verdict;
 use super::placed::Placed;
 
 /// A front this many entries longer than twice its length when new is started afresh: it trails behind the shape.
@@ -34,6 +35,8 @@ pub(super) struct Front {
     nodes: Vec<u32>,
     triangle_keys: Vec<f64>,
     triangles: Vec<Known>,
+    /// Where the last exact query ended: the start for a triangle met for the first time, as a rule a neighbour.
+    simplex: SimplexCache,
     /// Sum of the motions since the front was new [m].
     travelled: f64,
     fresh_len: usize,
@@ -62,6 +65,7 @@ impl Front {
         self.nodes.clear();
         self.triangle_keys.clear();
         self.triangles.clear();
+        self.simplex = SimplexCache::default();
         self.travelled = 0.0;
         self.fresh_len = 0;
     }
@@ -173,22 +177,33 @@ impl Front {
         let triangle = tree.primitives[slot];
         let mut bound = scene.placed.bound_of_box(&tree.boxes[slot]);
         let mut direction = DVec3::ZERO;
+        let mut unsolved = false;
         if !(bound > visitor.limit()) {
-            let corners = scene.mesh.corners(triangle);
-            (bound, direction) = scene.placed.bound_of_triangle(&corners);
+            match scene.placed.judge(&scene.mesh.corners(triangle)) {
+                Verdict::Bound(better, along) => {
+                    bound = better;
+                    direction = along;
+                    unsolved = !(bound > visitor.limit());
+                }
+                Verdict::Exact(closest) => {
+                    bound = closest.separation - scene.placed.slack;
+                    visitor.visit(triangle, &closest);
+                }
+            }
         }
         self.triangle_keys.push(self.travelled + bound);
         self.triangles.push(Known {
             triangle,
             direction,
-            simplex: SimplexCache::default(),
+            simplex: self.simplex,
         });
-        if !(bound > visitor.limit()) {
+        if unsolved {
             self.solve(self.triangles.len() - 1, scene, visitor);
         }
     }
 
-    /// A triangle whose bound has expired: a new bound along the last direction, else the exact answer.
+    /// A triangle whose bound has expired: a new bound along the last direction, else what the shape's faces say, else
+    /// the exact query.
     fn look_at<S: SupportMap + ?Sized>(
         &mut self,
         index: usize,
@@ -197,17 +212,26 @@ impl Front {
     ) {
         let known = &mut self.triangles[index];
         let corners = scene.mesh.corners(known.triangle);
-        let bound = if known.direction == DVec3::ZERO {
-            let (bound, direction) = scene.placed.bound_of_triangle(&corners);
-            known.direction = direction;
-            bound
-        } else {
-            scene.placed.height_over(&corners, known.direction)
-        };
-        if bound > visitor.limit() {
-            self.triangle_keys[index] = self.travelled + bound;
-        } else {
-            self.solve(index, scene, visitor);
+        if known.direction != DVec3::ZERO {
+            let bound = scene.placed.bound_along(&corners, known.direction);
+            if bound > visitor.limit() {
+                self.triangle_keys[index] = self.travelled + bound;
+                return;
+            }
+        }
+        match scene.placed.judge(&corners) {
+            Verdict::Bound(bound, direction) if bound > visitor.limit() => {
+                self.triangle_keys[index] = self.travelled + bound;
+                known.direction = direction;
+            }
+            Verdict::Bound(..) => self.solve(index, scene, visitor),
+            Verdict::Exact(closest) => {
+                self.triangle_keys[index] =
+                    self.travelled + closest.separation - scene.placed.slack;
+                // Faces are asked first also next time.
+                known.direction = DVec3::ZERO;
+                visitor.visit(known.triangle, &closest);
+            }
         }
     }
 
@@ -220,6 +244,7 @@ impl Front {
         let known = &mut self.triangles[index];
         let corners = scene.mesh.corners(known.triangle);
         let closest = scene.placed.closest_points(&corners, &mut known.simplex);
+        self.simplex = known.simplex;
         known.direction = closest.normal;
         self.triangle_keys[index] = self.travelled + closest.separation - scene.placed.slack;
         visitor.visit(known.triangle, &closest);

@@ -11,6 +11,7 @@ use crate::bvh::frame::{SLACK, UnitBox, UnitFrame};
 use crate::bvh::triangle::unit_normal;
 use crate::{ClosestPoints, SimplexCache, SupportMap, Triangle, closest_points};
 
+use super::faces::{Faces, Verdict};
 use super::segment::against_triangle;
 
 /// Box of a shape along the axes of its own frame [m].
@@ -34,7 +35,9 @@ pub(super) struct Placed<'s, S: ?Sized> {
     pub(super) local: LocalBox,
     /// Ends of the core in the mesh's frame, where it is a segment.
     segment: Option<[DVec3; 2]>,
+    faces: Faces,
     radius: f64,
+    frame: UnitFrame,
     mesh_from_shape_rotation: DMat3,
     shape_from_mesh_rotation: DMat3,
     /// Rounding of heights and distances [m].
@@ -51,6 +54,8 @@ pub(super) struct UnitBoxes {
     pub(super) half: DVec3,
     /// Along the shape's axes: the centre in the mesh's frame, the half lengths along the shape's.
     pub(super) own_centre: DVec3,
+    /// The shape's origin.
+    pub(super) origin: DVec3,
     pub(super) own_half: DVec3,
     pub(super) shape_from_mesh: DMat3,
     pub(super) spread: DMat3,
@@ -98,6 +103,7 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
             centre: centre * per_metre,
             half: (0.5 * (along_mesh.1 - along_mesh.0) + radius) * per_metre,
             own_centre: own_centre * per_metre,
+            origin: (translation - frame.centre) * per_metre,
             own_half: 0.5 * (local.max - local.min) * per_metre,
             shape_from_mesh: inverse,
             spread: absolute(&inverse),
@@ -107,7 +113,9 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
             mesh_from_shape,
             local,
             segment,
+            faces: Faces::new(shape, &rotation),
             radius,
+            frame: *frame,
             mesh_from_shape_rotation: rotation,
             shape_from_mesh_rotation: inverse,
             slack: 1e-15 * (coordinate + size + 1.0 / per_metre),
@@ -125,25 +133,55 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
         let (min, max) = bounds.corners();
         let (centre, half) = (0.5 * (min + max), 0.5 * (max - min));
         let along_mesh = (centre - unit.centre).abs() - (half + unit.half);
-        let along_own = (unit.shape_from_mesh * (centre - unit.own_centre)).abs()
-            - (unit.spread * half + unit.own_half);
-        (outside(along_mesh).max(outside(along_own)) - unit.slack) * unit.metres
+        let across = if self.faces.is_empty() {
+            let along_own = (unit.shape_from_mesh * (centre - unit.own_centre)).abs()
+                - (unit.spread * half + unit.own_half);
+            outside(along_own)
+        } else {
+            let from_origin = centre - unit.origin;
+            self.faces.bound_of_box(from_origin, half, &self.frame)
+                - self.radius * self.frame.per_metre
+        };
+        (outside(along_mesh).max(across) - unit.slack) * unit.metres
     }
 
-    /// Lower bound [m] of the separation from a triangle by the shape's own box and the triangle's plane.
-    pub(super) fn bound_of_triangle(&self, corners: &[DVec3; 3]) -> (f64, DVec3) {
-        let own = corners.map(|corner| {
-            self.shape_from_mesh_rotation * (corner - self.mesh_from_shape.translation)
-        });
+    /// What a few dot products tell about a triangle: a lower bound [m] of the separation, or even the answer.
+    pub(super) fn judge(&self, corners: &[DVec3; 3]) -> Verdict {
+        let origin = self.mesh_from_shape.translation;
+        let relative = corners.map(|corner| corner - origin);
+        if self.faces.is_empty() {
+            let (bound, direction) = self.bound_of_triangle(&relative);
+            return Verdict::Bound(bound, direction);
+        }
+        match self.faces.judge(&relative) {
+            Verdict::Bound(bound, direction) => {
+                Verdict::Bound(bound - self.radius - self.slack, direction)
+            }
+            Verdict::Exact(core) => {
+                let witness_a = core.witness_a + origin;
+                let separation = core.separation - self.radius;
+                Verdict::Exact(ClosestPoints {
+                    witness_a,
+                    witness_b: witness_a + core.normal * separation,
+                    normal: core.normal,
+                    separation,
+                })
+            }
+        }
+    }
+
+    /// A lower bound by the shape's own box and by the triangle's plane.
+    fn bound_of_triangle(&self, relative: &[DVec3; 3]) -> (f64, DVec3) {
+        let own = relative.map(|corner| self.shape_from_mesh_rotation * corner);
         let min = own[0].min(own[1]).min(own[2]);
         let max = own[0].max(own[1]).max(own[2]);
         let by_box = outside((min - self.local.max).max(self.local.min - max)) - self.slack;
-        let Some(normal) = unit_normal(corners) else {
+        let Some(normal) = unit_normal(relative) else {
             return (by_box, DVec3::ZERO);
         };
         let side = (self.shape_from_mesh_rotation * normal).dot(self.local.centre() - own[0]);
         let towards = if side < 0.0 { -normal } else { normal };
-        let by_plane = self.height_over(corners, towards);
+        let by_plane = self.height_over(relative, towards);
         if by_plane >= by_box {
             (by_plane, towards)
         } else {
@@ -152,13 +190,17 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
     }
 
     /// Lower bound [m] of the separation from a triangle along a unit direction, from the triangle to the shape.
-    pub(super) fn height_over(&self, corners: &[DVec3; 3], direction: DVec3) -> f64 {
+    pub(super) fn bound_along(&self, corners: &[DVec3; 3], direction: DVec3) -> f64 {
+        let origin = self.mesh_from_shape.translation;
+        self.height_over(&corners.map(|corner| corner - origin), direction)
+    }
+
+    fn height_over(&self, relative: &[DVec3; 3], direction: DVec3) -> f64 {
         let own = self.shape_from_mesh_rotation * direction;
         let lowest = self.shape.support(-own, 0).point;
-        let origin = self.mesh_from_shape.translation;
-        let top = corners
+        let top = relative
             .iter()
-            .map(|&corner| (corner - origin).dot(direction))
+            .map(|&corner| corner.dot(direction))
             .fold(f64::NEG_INFINITY, f64::max);
         lowest.dot(own) - self.radius - top - self.slack
     }
