@@ -23,7 +23,7 @@ const SURPLUS: usize = 256;
 #[derive(Clone, Copy, Debug)]
 struct Known {
     triangle: u32,
-    /// The last direction that bounded it, from the triangle to the shape; zero if there was none.
+    /// The direction that last kept it apart, from the triangle to the shape; zero if none did.
     direction: DVec3,
     simplex: SimplexCache,
 }
@@ -228,7 +228,6 @@ impl Front {
             Verdict::Exact(closest) => {
                 self.triangle_keys[index] =
                     self.travelled + closest.separation - scene.placed.slack;
-                // Faces are asked first also next time.
                 known.direction = DVec3::ZERO;
                 visitor.visit(known.triangle, &closest);
             }
@@ -245,7 +244,12 @@ impl Front {
         let corners = scene.mesh.corners(known.triangle);
         let closest = scene.placed.closest_points(&corners, &mut known.simplex);
         self.simplex = known.simplex;
-        known.direction = closest.normal;
+        // Along the normal of a hit there is no room: another look at it next time would be in vain.
+        known.direction = if closest.separation > visitor.limit() {
+            closest.normal
+        } else {
+            DVec3::ZERO
+        };
         self.triangle_keys[index] = self.travelled + closest.separation - scene.placed.slack;
         visitor.visit(known.triangle, &closest);
     }
