@@ -109,12 +109,11 @@ impl MeshCache {
             let far = bounds.reach().max(FAR / bvh.tree.frame.per_metre);
             (known && motion <= far).then_some(motion)
         });
-        match motion {
-            Some(motion) => self.front.advance(motion),
-            None => {
-                self.front.clear();
-                self.deepest = None;
-            }
+        if let Some(motion) = motion {
+            self.front.advance(motion);
+        } else {
+            self.front.clear();
+            self.deepest = None;
         }
         self.deformation = 0.0;
         self.last = Some(Last {

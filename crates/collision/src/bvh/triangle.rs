@@ -55,11 +55,11 @@ pub(crate) fn from_segment(start: DVec3, end: DVec3, point: DVec3) -> (DVec3, f6
     let along = end - start;
     let length_squared = along.length_squared();
     let fraction = (point - start).dot(along) / length_squared;
-    // Also takes the end where the segment has no length.
     if fraction >= 1.0 {
         return (point - end, 1.0);
     }
-    if !(fraction > 0.0) {
+    // NaN: the segment has no length.
+    if fraction <= 0.0 || fraction.is_nan() {
         return (point - start, 0.0);
     }
     let rejection = (point - start) - along * fraction;

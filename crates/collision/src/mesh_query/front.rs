@@ -94,9 +94,10 @@ impl Front {
         }
         // Triangles first: the near ones shrink the limit.
         for index in 0..self.triangles.len() {
-            if !(self.triangle_keys[index] > self.travelled + visitor.limit()) {
-                self.look_at(index, scene, visitor);
+            if self.triangle_keys[index] > self.travelled + visitor.limit() {
+                continue;
             }
+            self.look_at(index, scene, visitor);
         }
         let mut index = 0;
         while index < self.nodes.len() {
@@ -175,31 +176,17 @@ impl Front {
     ) {
         let tree = &scene.bvh.tree;
         let triangle = tree.primitives[slot];
-        let mut bound = scene.placed.bound_of_box(&tree.boxes[slot]);
-        let mut direction = DVec3::ZERO;
-        let mut unsolved = false;
-        if !(bound > visitor.limit()) {
-            match scene.placed.judge(&scene.mesh.corners(triangle)) {
-                Verdict::Bound(better, along) => {
-                    bound = better;
-                    direction = along;
-                    unsolved = !(bound > visitor.limit());
-                }
-                Verdict::Exact(closest) => {
-                    bound = closest.separation - scene.placed.slack;
-                    visitor.visit(triangle, &closest);
-                }
-            }
-        }
+        let bound = scene.placed.bound_of_box(&tree.boxes[slot]);
         self.triangle_keys.push(self.travelled + bound);
         self.triangles.push(Known {
             triangle,
-            direction,
+            direction: DVec3::ZERO,
             simplex: self.simplex,
         });
-        if unsolved {
-            self.solve(self.triangles.len() - 1, scene, visitor);
+        if bound > visitor.limit() {
+            return;
         }
+        self.look_at(self.triangles.len() - 1, scene, visitor);
     }
 
     /// A triangle whose bound has expired: a new bound along the last direction, else what the shape's faces say, else

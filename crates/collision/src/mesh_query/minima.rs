@@ -240,10 +240,6 @@ fn edge(a: u32, b: u32) -> [u32; 2] {
 }
 
 /// Fibonacci hashing (Knuth 1998, §6.4) of the two numbers.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the table is smaller than 2³² entries"
-)]
 fn hash([a, b]: [u32; 2]) -> usize {
     let key = u64::from(a) << 32 | u64::from(b);
     let mixed = (key ^ key >> 31).wrapping_mul(0x9E37_79B9_7F4A_7C15);

@@ -49,14 +49,15 @@ pub(crate) fn against_triangle(
 fn piercing(corners: &[DVec3; 3], [a, b]: [DVec3; 2]) -> Option<Pair> {
     let normal = unit_normal(corners)?;
     let (of_a, of_b) = (normal.dot(a - corners[0]), normal.dot(b - corners[0]));
-    if of_a * of_b > 0.0 || of_a == of_b {
+    let rise = of_b - of_a;
+    if of_a * of_b > 0.0 || rise == 0.0 {
         return None;
     }
-    let point = a + (b - a) * (of_a / (of_a - of_b));
+    let point = a + (b - a) * (-of_a / rise);
     if barycentric(corners, point).iter().any(|&w| w < 0.0) {
         return None;
     }
-    let (low, high, bottom, top) = if of_a < of_b {
+    let (low, high, bottom, top) = if rise > 0.0 {
         (of_a, of_b, a, b)
     } else {
         (of_b, of_a, b, a)
