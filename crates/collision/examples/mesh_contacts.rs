@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use std::time::Instant;
 
 use glam::{DQuat, DVec3};
-use pliant_collision::{MeshCache, SupportMap, TriangleBvh};
+use pliant_collision::{MeshCache, PointSet, Rounded, Segment, SupportMap, TriangleBvh};
 use pliant_mesh::generate::latitude_longitude_ellipsoid;
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 use pliant_spatial::Pose;
@@ -29,33 +29,45 @@ enum Query {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let tool = ConvexMesh::hull(&prism())?;
-    let radii = DVec3::new(0.5, 0.4, 0.3);
-    let small = latitude_longitude_ellipsoid(radii, 96, 67)?;
+    let points = prism();
+    let hull = ConvexMesh::hull(&points)?;
+    let core = Segment {
+        a: DVec3::X * (-0.5 * SIZE),
+        b: DVec3::X * (0.5 * SIZE),
+    };
+    let capsule = Rounded {
+        core,
+        radius: 0.012,
+    };
+    let small = latitude_longitude_ellipsoid(DVec3::new(0.5, 0.4, 0.3), 96, 67)?;
     let large = bumpy(1000, 500)?;
     println!("median / p99 [us] of one query, 0.5 % deep; contacts: median / most");
-    println!("triangles  build ms  query            cold           coherent      contacts");
+    println!("query              cold             coherent         contacts");
     for mesh in [&small, &large] {
         let before = Instant::now();
         let bvh = TriangleBvh::new(mesh);
         let build = before.elapsed().as_secs_f64() * 1e3;
-        for (name, query) in [
-            ("local minima", Query::Minima),
-            ("every one", Query::Every),
-            ("deepest", Query::Deepest),
-        ] {
+        println!(
+            "{} triangles, tree built in {build:.0} ms",
+            mesh.triangles().len()
+        );
+        let rows: [(&str, &dyn SupportMap, Query); 5] = [
+            ("hull, minima", &hull, Query::Minima),
+            ("hull, every", &hull, Query::Every),
+            ("hull, deepest", &hull, Query::Deepest),
+            ("points, minima", &PointSet(&points), Query::Minima),
+            ("capsule, minima", &capsule, Query::Minima),
+        ];
+        for (name, tool, query) in rows {
             let bench = Bench {
                 mesh,
                 bvh: &bvh,
-                tool: &tool,
+                tool,
                 query,
             };
             let (cold, counts) = bench.cold();
             let coherent = bench.coherent();
-            println!(
-                "{:>9}  {build:>8.1}  {name:<12} {cold:>15}  {coherent:>15}  {counts}",
-                mesh.triangles().len()
-            );
+            println!("{name:<16} {cold:>16} {coherent:>16}  {counts}");
         }
     }
     Ok(())
@@ -91,7 +103,7 @@ fn bumpy(sectors: u32, bands: u32) -> Result<TriangleMesh, Box<dyn Error>> {
 struct Bench<'m> {
     mesh: &'m TriangleMesh,
     bvh: &'m TriangleBvh,
-    tool: &'m ConvexMesh,
+    tool: &'m dyn SupportMap,
     query: Query,
 }
 
@@ -186,9 +198,10 @@ impl Bench<'_> {
         let [p, q, r] = self.mesh.triangles()[face].map(|v| self.mesh.positions()[v as usize]);
         let normal = (q - p).cross(r - p).normalize();
         let lowest = self.tool.support(-(rotation.conjugate() * normal), 0).point;
+        let depth = DEPTH - self.tool.radius();
         Pose::new(
             rotation,
-            (p + q + r) / 3.0 - normal * DEPTH - rotation * lowest,
+            (p + q + r) / 3.0 - normal * depth - rotation * lowest,
         )
     }
 }

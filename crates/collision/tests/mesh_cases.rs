@@ -184,6 +184,23 @@ fn a_capsule_through_a_thin_sheet_leaves_by_the_shorter_end() {
 }
 
 #[test]
+fn lines_that_cross_have_a_common_normal() {
+    let corners = vec![DVec3::ZERO, DVec3::X, DVec3::X * 2.0];
+    let mesh = TriangleMesh::new(corners, vec![[0, 1, 2]]).expect("valid");
+    let needle = Segment {
+        a: DVec3::new(1.0, -1.0, -1.0),
+        b: DVec3::new(1.0, 1.0, 1.0),
+    };
+    let found = ask(&mesh, &needle, &Pose::IDENTITY, 0.0);
+    let normal = found[0].closest.normal;
+    assert!(
+        normal.x.abs() < 1e-15 && (normal.y + normal.z).abs() < 1e-15,
+        "{normal}"
+    );
+    assert!(found[0].closest.separation.abs() < 1e-15);
+}
+
+#[test]
 fn announced_deformations_are_followed() {
     let mesh = floor(30);
     let bvh = TriangleBvh::new(&mesh);

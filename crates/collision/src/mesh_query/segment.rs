@@ -14,6 +14,9 @@ use crate::bvh::triangle::{barycentric, from_segment, nearest, unit_normal};
 /// Lines closer to parallel than this sine have no common normal of use; the ends of the segments then decide.
 const PARALLEL: f64 = 1e-12;
 
+/// Distances below this times the size are rounding.
+const TOUCHING: f64 = 4.0 * f64::EPSILON;
+
 const EDGES: [(usize, usize, usize); 3] = [(0, 1, 2), (1, 2, 0), (2, 0, 1)];
 
 /// A separating or supporting pair: point of the triangle, unit normal towards the segment, signed separation.
@@ -122,10 +125,54 @@ fn apart(corners: &[DVec3; 3], [a, b]: [DVec3; 2]) -> Pair {
             best = nearer(best, pair);
         }
     }
-    if best.normal == DVec3::ZERO {
-        // Touching: any supporting direction serves, the triangle's is the likeliest to support it.
-        best.normal = unit_normal(corners).unwrap_or(DVec3::Z);
-        best.separation = 0.0;
+    let size = (b - a).abs().max(corners[1].abs()).max(corners[2].abs());
+    if best.separation <= TOUCHING * size.max_element() {
+        return touching(corners, [a, b], best);
+    }
+    best
+}
+
+/// Of a pair that touches, whose own direction is rounding or nothing, the direction that supports both best: one of the
+/// prism's faces does, and where the prism is flat its plane.
+fn touching(corners: &[DVec3; 3], [a, b]: [DVec3; 2], pair: Pair) -> Pair {
+    let mut best = Pair {
+        separation: f64::NEG_INFINITY,
+        ..pair
+    };
+    let along = b - a;
+    let edges = EDGES.map(|(i, j, _)| corners[j] - corners[i]);
+    let longest = edges.into_iter().fold(along, |best, edge| {
+        if edge.length_squared() > best.length_squared() {
+            edge
+        } else {
+            best
+        }
+    });
+    let crosses = edges.map(|edge| edge.cross(along).normalize_or_zero());
+    let plane = unit_normal(corners).unwrap_or(DVec3::ZERO);
+    let beside = longest.any_orthogonal_vector().normalize_or(DVec3::Z);
+    for direction in [
+        pair.normal,
+        plane,
+        crosses[0],
+        crosses[1],
+        crosses[2],
+        beside,
+    ] {
+        if direction == DVec3::ZERO {
+            continue;
+        }
+        for normal in [direction, -direction] {
+            let top = corners
+                .iter()
+                .map(|corner| corner.dot(normal))
+                .fold(f64::NEG_INFINITY, f64::max);
+            let separation = a.dot(normal).min(b.dot(normal)) - top;
+            if separation > best.separation {
+                best.normal = normal;
+                best.separation = separation;
+            }
+        }
     }
     best
 }
