@@ -71,12 +71,8 @@ pub(crate) fn from_segment(start: DVec3, end: DVec3, point: DVec3) -> (DVec3, f6
 /// Point of a triangle, degenerate ones included, nearest to `point`, and the unit vector and distance from it to `point`.
 /// The vector is zero if the two coincide, and the plane's normal to rounding over the triangle's inside.
 pub(crate) fn nearest(corners: &[DVec3; 3], point: DVec3) -> (DVec3, DVec3, f64) {
-    if let Some(normal) = unit_normal(corners)
-        && barycentric(corners, point).iter().all(|&w| w >= 0.0)
-    {
-        let height = normal.dot(point - corners[0]);
-        let towards = if height < 0.0 { -normal } else { normal };
-        return (point - normal * height, towards, height.abs());
+    if let Some(answer) = over_inside(corners, unit_normal(corners), point) {
+        return answer;
     }
     let mut best = (DVec3::ZERO, f64::INFINITY);
     for (i, j) in [(0, 1), (1, 2), (2, 0)] {
@@ -93,4 +89,19 @@ pub(crate) fn nearest(corners: &[DVec3; 3], point: DVec3) -> (DVec3, DVec3, f64)
         DVec3::ZERO
     };
     (point - best.0, towards, distance)
+}
+
+/// [`nearest`] for a point over the inside of a triangle with area; `None` elsewhere.
+pub(crate) fn over_inside(
+    corners: &[DVec3; 3],
+    normal: Option<DVec3>,
+    point: DVec3,
+) -> Option<(DVec3, DVec3, f64)> {
+    let normal = normal?;
+    if barycentric(corners, point).iter().any(|&w| w < 0.0) {
+        return None;
+    }
+    let height = normal.dot(point - corners[0]);
+    let towards = if height < 0.0 { -normal } else { normal };
+    Some((point - normal * height, towards, height.abs()))
 }

@@ -212,12 +212,7 @@ impl Front {
                 known.direction = direction;
             }
             Verdict::Bound(..) => self.solve(index, scene, visitor),
-            Verdict::Exact(closest) => {
-                self.triangle_keys[index] =
-                    self.travelled + closest.separation - scene.placed.slack;
-                known.direction = DVec3::ZERO;
-                visitor.visit(known.triangle, &closest);
-            }
+            Verdict::Exact(closest) => self.note(index, &closest, scene, visitor),
         }
     }
 
@@ -231,6 +226,18 @@ impl Front {
         let corners = scene.mesh.corners(known.triangle);
         let closest = scene.placed.closest_points(&corners, &mut known.simplex);
         self.simplex = known.simplex;
+        self.note(index, &closest, scene, visitor);
+    }
+
+    /// An exact answer.
+    fn note<S: SupportMap + ?Sized>(
+        &mut self,
+        index: usize,
+        closest: &ClosestPoints,
+        scene: &Scene<'_, S>,
+        visitor: &mut impl Visitor,
+    ) {
+        let known = &mut self.triangles[index];
         // Along the normal of a hit there is no room: another look at it next time would be in vain.
         known.direction = if closest.separation > visitor.limit() {
             closest.normal
@@ -238,6 +245,6 @@ impl Front {
             DVec3::ZERO
         };
         self.triangle_keys[index] = self.travelled + closest.separation - scene.placed.slack;
-        visitor.visit(known.triangle, &closest);
+        visitor.visit(known.triangle, closest);
     }
 }

@@ -147,6 +147,9 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
 
     /// What a few dot products tell about a triangle: a lower bound [m] of the separation, or even the answer.
     pub(super) fn judge(&self, corners: &[DVec3; 3]) -> Verdict {
+        if let Some(ends) = self.segment {
+            return Verdict::Exact(against_triangle(corners, ends, self.radius));
+        }
         let origin = self.mesh_from_shape.translation;
         let relative = corners.map(|corner| corner - origin);
         if self.faces.is_empty() {
@@ -211,9 +214,10 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
         corners: &[DVec3; 3],
         cache: &mut SimplexCache,
     ) -> ClosestPoints {
+        let triangle = Triangle(*corners);
         match self.segment {
             Some(ends) => against_triangle(corners, ends, self.radius),
-            None => closest_points(&Triangle(*corners), self.shape, self.mesh_from_shape, cache),
+            None => closest_points(&triangle, self.shape, self.mesh_from_shape, cache),
         }
     }
 

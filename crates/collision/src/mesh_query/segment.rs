@@ -9,7 +9,7 @@
 use glam::DVec3;
 
 use crate::ClosestPoints;
-use crate::bvh::triangle::{barycentric, from_segment, nearest, unit_normal};
+use crate::bvh::triangle::{barycentric, from_segment, over_inside, unit_normal};
 
 /// Lines closer to parallel than this sine have no common normal of use; the ends of the segments then decide.
 const PARALLEL: f64 = 1e-12;
@@ -37,7 +37,8 @@ pub(crate) fn against_triangle(
     let origin = corners[0];
     let local = corners.map(|corner| corner - origin);
     let ends = [a - origin, b - origin];
-    let pair = piercing(&local, ends).unwrap_or_else(|| apart(&local, ends));
+    let plane = unit_normal(&local);
+    let pair = piercing(&local, plane, ends).unwrap_or_else(|| apart(&local, plane, ends));
     let on_triangle = pair.on_triangle + origin;
     let separation = pair.separation - radius;
     ClosestPoints {
@@ -49,8 +50,8 @@ pub(crate) fn against_triangle(
 }
 
 /// The way out of a triangle that the segment pierces; `None` if it does not.
-fn piercing(corners: &[DVec3; 3], [a, b]: [DVec3; 2]) -> Option<Pair> {
-    let normal = unit_normal(corners)?;
+fn piercing(corners: &[DVec3; 3], normal: Option<DVec3>, [a, b]: [DVec3; 2]) -> Option<Pair> {
+    let normal = normal?;
     let (of_a, of_b) = (normal.dot(a - corners[0]), normal.dot(b - corners[0]));
     let rise = of_b - of_a;
     if of_a * of_b > 0.0 || rise == 0.0 {
@@ -106,35 +107,45 @@ fn piercing(corners: &[DVec3; 3], [a, b]: [DVec3; 2]) -> Option<Pair> {
 }
 
 /// The nearest pair of features: ends over the triangle, corners beside the segment, edges across it.
-fn apart(corners: &[DVec3; 3], [a, b]: [DVec3; 2]) -> Pair {
-    let mut best = end_pair(corners, a);
-    best = nearer(best, end_pair(corners, b));
-    for &corner in corners {
-        let (to_corner, _) = from_segment(a, b, corner);
-        let separation = to_corner.length();
-        if separation < best.separation {
-            best = Pair {
-                on_triangle: corner,
-                normal: -to_corner / separation,
+fn apart(corners: &[DVec3; 3], normal: Option<DVec3>, [a, b]: [DVec3; 2]) -> Pair {
+    let mut best = Pair {
+        on_triangle: corners[0],
+        normal: DVec3::ZERO,
+        separation: f64::INFINITY,
+    };
+    for end in [a, b] {
+        if let Some((on_triangle, towards, separation)) = over_inside(corners, normal, end) {
+            let pair = Pair {
+                on_triangle,
+                normal: towards,
                 separation,
             };
+            best = nearer(best, pair);
         }
     }
+    for &corner in corners {
+        let (to_corner, _) = from_segment(a, b, corner);
+        best = nearer(best, between(corner, -to_corner));
+    }
     for (i, j, _) in EDGES {
+        for end in [a, b] {
+            let (from_edge, _) = from_segment(corners[i], corners[j], end);
+            best = nearer(best, between(end - from_edge, from_edge));
+        }
         if let Some(pair) = across(corners[i], corners[j], [a, b]) {
             best = nearer(best, pair);
         }
     }
     let size = (b - a).abs().max(corners[1].abs()).max(corners[2].abs());
     if best.separation <= TOUCHING * size.max_element() {
-        return touching(corners, [a, b], best);
+        return touching(corners, normal, [a, b], best);
     }
     best
 }
 
 /// Of a pair that touches, whose own direction is rounding or nothing, the direction that supports both best: one of the
 /// prism's faces does, and where the prism is flat its plane.
-fn touching(corners: &[DVec3; 3], [a, b]: [DVec3; 2], pair: Pair) -> Pair {
+fn touching(corners: &[DVec3; 3], plane: Option<DVec3>, [a, b]: [DVec3; 2], pair: Pair) -> Pair {
     let mut best = Pair {
         separation: f64::NEG_INFINITY,
         ..pair
@@ -149,7 +160,7 @@ fn touching(corners: &[DVec3; 3], [a, b]: [DVec3; 2], pair: Pair) -> Pair {
         }
     });
     let crosses = edges.map(|edge| edge.cross(along).normalize_or_zero());
-    let plane = unit_normal(corners).unwrap_or(DVec3::ZERO);
+    let plane = plane.unwrap_or(DVec3::ZERO);
     let beside = longest.any_orthogonal_vector().normalize_or(DVec3::Z);
     for direction in [
         pair.normal,
@@ -185,11 +196,16 @@ fn nearer(best: Pair, other: Pair) -> Pair {
     }
 }
 
-fn end_pair(corners: &[DVec3; 3], end: DVec3) -> Pair {
-    let (on_triangle, normal, separation) = nearest(corners, end);
+/// The pair whose points are `offset` apart.
+fn between(on_triangle: DVec3, offset: DVec3) -> Pair {
+    let separation = offset.length();
     Pair {
         on_triangle,
-        normal,
+        normal: if separation > 0.0 {
+            offset / separation
+        } else {
+            DVec3::ZERO
+        },
         separation,
     }
 }
