@@ -18,7 +18,7 @@ impl ObjectBvh {
     /// Builds the tree; object `i` is the one of `boxes[i]` [m].
     pub fn new(boxes: &[Aabb]) -> Self {
         Self {
-            tree: BoxTree::new(boxes.iter().copied()),
+            tree: BoxTree::new(&bounds_of(boxes), boxes.iter().copied()),
             count: boxes.len(),
         }
     }
@@ -31,7 +31,7 @@ impl ObjectBvh {
     pub fn refit(&mut self, boxes: &[Aabb]) {
         assert_eq!(boxes.len(), self.count, "one box per object");
         self.tree
-            .refit(boxes.iter().copied(), |object| boxes[object as usize]);
+            .refit(&bounds_of(boxes), |object| boxes[object as usize]);
     }
 
     /// Calls `visit` with every object whose box meets `bounds` [m]. Allocates nothing.
@@ -69,4 +69,12 @@ impl ObjectBvh {
             });
         }
     }
+}
+
+/// Box around all bounded ones.
+fn bounds_of(boxes: &[Aabb]) -> Aabb {
+    boxes
+        .iter()
+        .filter(|one| one.min.is_finite() && one.max.is_finite())
+        .fold(Aabb::EMPTY, |all, one| all.union(one))
 }

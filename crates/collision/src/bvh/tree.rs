@@ -51,8 +51,9 @@ impl Node {
 }
 
 impl BoxTree {
-    pub(super) fn new(boxes: impl ExactSizeIterator<Item = Aabb> + Clone) -> Self {
-        let frame = UnitFrame::around(&bounds_of(boxes.clone()));
+    /// Builds the tree; `bounds` [m] hold all boxes that are bounded.
+    pub(super) fn new(bounds: &Aabb, boxes: impl Iterator<Item = Aabb>) -> Self {
+        let frame = UnitFrame::around(bounds);
         let in_order: Vec<UnitBox> = boxes.map(|bounds| frame.enclose(&bounds)).collect();
         if in_order.is_empty() {
             return Self {
@@ -82,10 +83,10 @@ impl BoxTree {
     }
 
     /// New boxes for the same primitives; keeps the tree's shape and allocates nothing.
-    pub(super) fn refit(&mut self, boxes: impl Iterator<Item = Aabb>, of: impl Fn(u32) -> Aabb) {
-        self.frame = UnitFrame::around(&bounds_of(boxes));
-        for (bounds, &primitive) in self.boxes.iter_mut().zip(&self.primitives) {
-            *bounds = self.frame.enclose(&of(primitive));
+    pub(super) fn refit(&mut self, bounds: &Aabb, of: impl Fn(u32) -> Aabb) {
+        self.frame = UnitFrame::around(bounds);
+        for (unit, &primitive) in self.boxes.iter_mut().zip(&self.primitives) {
+            *unit = self.frame.enclose(&of(primitive));
         }
         self.refit_nodes();
     }
@@ -194,13 +195,6 @@ impl<F: Fn(&UnitBox) -> f64> Search<'_, F> {
     }
 }
 
-/// Box around all bounded ones.
-fn bounds_of(boxes: impl Iterator<Item = Aabb>) -> Aabb {
-    boxes
-        .filter(|one| one.min.is_finite() && one.max.is_finite())
-        .fold(Aabb::EMPTY, |all, one| all.union(&one))
-}
-
 /// obvhs' tree with parents before children and slots in the order of the leaves; `None` if it is too deep or lacks a
 /// primitive.
 fn copied(built: &Bvh2, count: usize) -> Option<(Vec<Node>, Vec<u32>)> {
@@ -290,6 +284,11 @@ mod tests {
             .collect()
     }
 
+    fn over(boxes: &[Aabb]) -> BoxTree {
+        let bounds = boxes.iter().fold(Aabb::EMPTY, |all, one| all.union(one));
+        BoxTree::new(&bounds, boxes.iter().copied())
+    }
+
     fn depth(tree: &BoxTree) -> usize {
         let mut deepest = 0;
         let mut waiting = vec![(0, 0)];
@@ -308,7 +307,7 @@ mod tests {
     fn no_tree_is_deeper_than_the_stack() {
         for count in [1, 2, 3, 10, 100, 400, 900] {
             let boxes = progression(count);
-            let tree = BoxTree::new(boxes.iter().copied());
+            let tree = over(&boxes);
             assert!(depth(&tree) <= DEPTH_LIMIT, "{count}: {}", depth(&tree));
             let mut found = Vec::new();
             tree.overlapping(
@@ -325,7 +324,7 @@ mod tests {
     #[test]
     fn balanced_trees_hold_every_box_once() {
         let boxes = progression(1000);
-        let reference = BoxTree::new(boxes.iter().copied());
+        let reference = over(&boxes);
         let units: Vec<_> = boxes.iter().map(|b| reference.frame.enclose(b)).collect();
         let (nodes, mut primitives) = balanced(&units);
         let leaves: u32 = nodes.iter().map(|node| node.count).sum();
