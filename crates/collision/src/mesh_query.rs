@@ -103,7 +103,7 @@ impl MeshCache {
                 .abs()
                 .max((bounds.max - last.bounds.max).abs())
                 .max_element();
-            let known = last.revision == bvh.revision && change <= self.deformation;
+            let known = last.revision == bvh.revision && change <= self.deformation + placed.slack;
             let motion = placed.motion_since(&last.pose) + self.deformation;
             // Beyond the sizes of both nothing the front knows is of use.
             let far = bounds.reach().max(FAR / bvh.tree.frame.per_metre);

@@ -25,8 +25,9 @@ const NONE: u32 = u32::MAX;
 /// Marks the end of a chain of plateaus.
 const END: u32 = u32::MAX;
 
-/// Entries of a table per key at most: a quarter full, probes are short.
-const SPARSITY: usize = 4;
+/// Entries of the table per triangle: enough for the six vertices and edges of one that shares none; on a closed mesh,
+/// with two per triangle, the table is at most a third full and probes are short.
+const ROOM: usize = 7;
 
 /// The lowest separation seen at each vertex and edge, and the plateaus that reach it.
 #[derive(Debug, Default)]
@@ -107,7 +108,7 @@ impl Minima {
             minima.push(hits[0]);
             return;
         }
-        self.clear_for(6 * hits.len());
+        self.clear_for(hits.len());
         let vertices_of = |hit: &MeshContact| {
             mesh.triangles()[hit.triangle as usize].map(|vertex| bvh.welded(vertex))
         };
@@ -191,15 +192,15 @@ impl Minima {
         of
     }
 
-    /// An empty table with room for `keys`.
-    fn clear_for(&mut self, keys: usize) {
+    /// An empty table with room for the vertices and edges of so many triangles.
+    fn clear_for(&mut self, triangles: usize) {
         const VOID: Entry = Entry {
             key: [NONE; 2],
             round: 0,
             chain: END,
             lowest: f64::INFINITY,
         };
-        let room = (SPARSITY * keys).next_power_of_two();
+        let room = (ROOM * triangles).next_power_of_two();
         if self.entries.len() < room || self.round == u32::MAX {
             let room = room.max(self.entries.len());
             self.entries.clear();
