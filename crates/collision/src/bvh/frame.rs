@@ -58,7 +58,7 @@ impl UnitFrame {
             .clamp(DVec3::splat(-EDGE), DVec3::splat(EDGE))
     }
 
-    /// The `f32` box around a box [m]; [`UnitBox::EMPTY`] for an empty one or NaN.
+    /// The `f32` box around a box [m]; [`UnitBox::EMPTY`] for an empty one or NaN (collision.40).
     pub(super) fn enclose(&self, bounds: &Aabb) -> UnitBox {
         if !bounds.min.cmple(bounds.max).all() {
             return UnitBox::EMPTY;

@@ -75,7 +75,7 @@ impl TriangleBvh {
 }
 
 impl<S: SupportMap + ?Sized> Placed<'_, S> {
-    /// Lower bound of the fraction of a motion (unit frame) at which the shape meets anything in a box; infinite if never.
+    /// Lower bound of the fraction of a motion (unit frame) at which the shape meets anything in a box; infinite if never (collision.47).
     fn entry(&self, bounds: &UnitBox, motion: DVec3) -> f64 {
         let unit = self.unit();
         let (min, max) = bounds.corners();

@@ -91,7 +91,7 @@ impl Faces {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// What is known of a triangle whose corners are given relative to the shape's origin, in the mesh's frame [m].
+    /// What is known of a triangle whose corners are given relative to the shape's origin, in the mesh's frame [m] (collision.42).
     pub(super) fn judge(&self, corners: &[DVec3; 3]) -> Verdict {
         let mut best = (f64::NEG_INFINITY, 0, 0);
         for (face, (normal, height)) in self.planes().enumerate() {

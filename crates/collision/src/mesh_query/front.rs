@@ -79,7 +79,7 @@ impl Front {
         self.travelled += distance;
     }
 
-    /// Shows `visitor` every triangle within its limit, and some beyond.
+    /// Shows `visitor` every triangle within its limit, and some beyond (collision.45).
     pub(super) fn refine<S: SupportMap + ?Sized>(
         &mut self,
         scene: &Scene<'_, S>,

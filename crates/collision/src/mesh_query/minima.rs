@@ -93,7 +93,7 @@ pub(super) fn touched(
 }
 
 impl Minima {
-    /// Writes the local minima among `hits` to `minima`; `tolerance` [m] is what rounding may add to a separation.
+    /// Writes the local minima among `hits` to `minima`; `tolerance` [m] is what rounding may add to a separation (collision.46).
     pub(super) fn select(
         &mut self,
         (bvh, mesh): (&TriangleBvh, &TriangleMesh),

@@ -127,7 +127,7 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
         &self.unit
     }
 
-    /// Lower bound [m] of the separation from anything in a box of the tree.
+    /// Lower bound [m] of the separation from anything in a box of the tree (collision.41).
     pub(super) fn bound_of_box(&self, bounds: &UnitBox) -> f64 {
         let unit = &self.unit;
         let (min, max) = bounds.corners();
@@ -221,7 +221,7 @@ impl<'s, S: SupportMap + ?Sized> Placed<'s, S> {
         }
     }
 
-    /// No point of the shape has moved further [m] since the placement `before`, if the shape is as it was.
+    /// No point of the shape has moved further [m] since the placement `before`, if the shape is as it was (collision.44).
     pub(super) fn motion_since(&self, before: &Pose) -> f64 {
         let centre = self.local.centre();
         let now = self.mesh_from_shape_rotation * centre + self.mesh_from_shape.translation;

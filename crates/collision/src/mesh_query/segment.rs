@@ -27,7 +27,7 @@ struct Pair {
     separation: f64,
 }
 
-/// Nearest or deepest points of a triangle (A) and a segment of the given radius around it (B), in one frame [m].
+/// Nearest or deepest points of a triangle (A) and a segment of the given radius around it (B), in one frame [m] (collision.43).
 pub(crate) fn against_triangle(
     corners: &[DVec3; 3],
     [a, b]: [DVec3; 2],
