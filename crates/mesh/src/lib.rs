@@ -8,6 +8,7 @@
 mod aabb;
 mod convex;
 mod digits;
+mod edge_table;
 pub mod generate;
 mod half_edge;
 mod hull;
@@ -21,7 +22,7 @@ pub use convex::{CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError};
 pub use half_edge::{HalfEdgeMesh, TopologyError};
 pub use hull::{HullError, SKIN, convex_hull};
 pub use id::{EdgeId, FaceId, Feature, HalfEdgeId, VertexId};
-pub use report::{MeshReport, Winding, inspect};
+pub use report::{MeshReport, Soundness, Winding, inspect};
 pub use triangle_mesh::{DEGENERATE_ALTITUDE, MeshError, TriangleMesh, WeldReport};
 
 #[cfg(doctest)]

@@ -10,18 +10,21 @@ mod ear_clip;
 mod gltf;
 mod obj;
 mod stl;
+mod text;
+mod validate;
 
 use std::fmt;
 
 use thiserror::Error;
 
-use crate::{MeshError, TriangleMesh};
+use crate::{MeshError, Soundness, TriangleMesh};
 pub use gltf::gltf;
 pub use obj::obj;
 pub use stl::stl;
 
-/// Most vertices or triangles a loader makes: instances of instances must not fill the memory.
-const MAX_LOADED: usize = 1 << 24;
+/// Most vertices or triangles a loader makes: instances of instances must not fill the memory, and all that is
+/// made of a mesh of this size (welded copy, half-edges, normals) fits in a gigabyte.
+const MAX_LOADED: usize = 1 << 22;
 
 /// A mesh and what was skipped or repaired on the way.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +33,8 @@ pub struct Loaded {
     pub mesh: TriangleMesh,
     /// What differs from the file.
     pub report: LoadReport,
+    /// What the triangles are like.
+    pub soundness: Soundness,
 }
 
 /// What a loader skipped or repaired, one note per kind in order of appearance.
@@ -58,14 +63,27 @@ impl fmt::Display for LoadNote {
 
 impl LoadReport {
     fn note(&mut self, what: &str, first: impl fmt::Display) {
+        self.note_many(what, 1, first);
+    }
+
+    fn note_many(&mut self, what: &str, count: usize, first: impl fmt::Display) {
         if let Some(note) = self.notes.iter_mut().find(|n| n.what == what) {
-            note.count += 1;
+            note.count += count;
         } else {
             self.notes.push(LoadNote {
                 what: what.to_owned(),
-                count: 1,
+                count,
                 first: first.to_string(),
             });
+        }
+    }
+
+    /// The error of a file in which nothing was found but `counts`, with all that was left out.
+    fn nothing_found(&self, counts: String) -> LoadError {
+        let notes = self.notes.iter().map(ToString::to_string);
+        let found: Vec<String> = std::iter::once(counts).chain(notes).collect();
+        LoadError::NoTriangles {
+            found: found.join("; "),
         }
     }
 }
@@ -116,10 +134,12 @@ pub enum LoadError {
         message: String,
     },
     /// The file needs an extension that is not supported.
-    #[error("the file needs extension {name}, which is not supported: export it without")]
+    #[error("the file needs {names}, which cannot be read here: {remedy}")]
     Extension {
-        /// Name of the glTF extension.
-        name: String,
+        /// Names of the glTF extensions, for instance "extension `KHR_draco_mesh_compression`".
+        names: String,
+        /// What to do.
+        remedy: &'static str,
     },
     /// The parsing library refuses what the checks here let pass.
     #[error("{library} cannot read the file: {message}; export it anew")]
@@ -153,58 +173,4 @@ fn at_line(line: usize, message: impl Into<String>) -> LoadError {
         line,
         message: message.into(),
     }
-}
-
-/// Parses a finite coordinate.
-fn coordinate(token: &str, line: usize) -> Result<f64, LoadError> {
-    let value: f64 = token
-        .parse()
-        .map_err(|_| at_line(line, format!("`{}` is not a number", shortened(token))))?;
-    if value.is_finite() {
-        Ok(value)
-    } else {
-        Err(at_line(
-            line,
-            format!("coordinate `{}` is not finite", shortened(token)),
-        ))
-    }
-}
-
-/// At most 40 characters of a token, for messages.
-fn shortened(token: &str) -> String {
-    token.chars().take(40).collect()
-}
-
-/// Text lines with their numbers from 1, by `\n`, or by `\r` in files that have no `\n`; bytes that are not
-/// UTF-8 (names and comments in other encodings) are replaced. A line that ends in a backslash goes on in
-/// the next.
-///
-/// # Errors
-/// UTF-16 and UTF-32 text, and bytes that are not text.
-fn text_lines(bytes: &[u8]) -> Result<impl Iterator<Item = (usize, String)>, LoadError> {
-    let found = match bytes {
-        [0xFE, 0xFF, ..] => Some("UTF-16 text (big-endian byte order mark)"),
-        [0xFF, 0xFE, ..] => Some("UTF-16 or UTF-32 text (little-endian byte order mark)"),
-        [0, 0, 0xFE, 0xFF, ..] => Some("UTF-32 text (big-endian byte order mark)"),
-        _ if bytes.contains(&0) => Some("binary data (a zero byte), not text"),
-        _ => None,
-    };
-    if let Some(found) = found {
-        let remedy = "save the file as UTF-8 text";
-        return Err(LoadError::Encoding { found, remedy });
-    }
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let separator = if bytes.contains(&b'\n') { b'\n' } else { b'\r' };
-    let mut rest = bytes.split(move |&b| b == separator).zip(1_usize..);
-    Ok(std::iter::from_fn(move || {
-        let (first, number) = rest.next()?;
-        let mut text = String::from_utf8_lossy(first).trim().to_owned();
-        while text.ends_with('\\') {
-            text.pop();
-            let Some((more, _)) = rest.next() else { break };
-            text.push(' ');
-            text.push_str(String::from_utf8_lossy(more).trim());
-        }
-        Some((number, text))
-    }))
 }

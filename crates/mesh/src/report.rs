@@ -1,9 +1,8 @@
 //! What a mesh is: the facts `pliant check` prints, gathered without refusing anything.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
+use crate::edge_table::EdgeTable;
 use crate::{
     CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError, HalfEdgeMesh, TopologyError, TriangleMesh,
     WeldReport,
@@ -57,40 +56,58 @@ pub struct MeshReport {
     pub weld: WeldReport,
 }
 
+/// What every loader looks at: whether the triangles can be relied upon. Equal positions count as one vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Soundness {
+    /// Triangles that have no area to speak of.
+    pub degenerate_triangles: usize,
+    /// Pieces that share no vertex.
+    pub shells: usize,
+    /// Which way the triangles face.
+    pub winding: Winding,
+}
+
+impl Soundness {
+    /// Looks at a mesh as it is, unwelded vertices joined.
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        let (welded, _) = mesh.welded(0.0);
+        Self {
+            degenerate_triangles: mesh.degenerate_triangles().len(),
+            shells: welded.shells(),
+            winding: Edges::of(&welded).winding(welded.signed_volume()),
+        }
+    }
+}
+
 /// Gathers the facts about a mesh; equal positions count as one vertex.
 pub fn inspect(mesh: &TriangleMesh) -> MeshReport {
     let degenerate_triangles = mesh.degenerate_triangles().len();
     let (welded, weld) = mesh.welded(0.0);
     let edges = Edges::of(&welded);
-    let topology = HalfEdgeMesh::new(&welded);
     let signed_volume = welded.signed_volume();
-    let winding = if edges.inconsistent {
-        Winding::Inconsistent
-    } else if !edges.closed {
-        Winding::Open
-    } else if signed_volume < 0.0 {
-        Winding::Inward
-    } else {
-        Winding::Outward
-    };
     let (vertices, faces) = (welded.positions().len(), welded.triangles().len());
+    let (shells, surface_area) = (welded.shells(), welded.surface_area());
+    let size = welded.bounds().size();
+    let topology = HalfEdgeMesh::new(&welded);
+    // Two copies of a large mesh less while convexity is tested.
+    drop(welded);
     MeshReport {
         vertices,
         faces,
         edges: edges.count,
-        shells: welded.shells(),
+        shells,
         closed: edges.closed,
         boundary_loops: topology.as_ref().ok().map(|t| t.boundary_loops().len()),
         manifold: topology.as_ref().map(|_| ()).map_err(Clone::clone),
         degenerate_triangles,
-        winding,
+        winding: edges.winding(signed_volume),
         convex: topology
             .map_err(ConvexityError::from)
             .and_then(|t| ConvexMesh::new(t, CONVEXITY_TOLERANCE))
             .map(|_| ()),
-        size: welded.bounds().size(),
+        size,
         signed_volume,
-        surface_area: welded.surface_area(),
+        surface_area,
         euler_number: (vertices.cast_signed() - edges.count.cast_signed() + faces.cast_signed())
             as i64,
         weld,
@@ -106,18 +123,33 @@ struct Edges {
 
 impl Edges {
     fn of(mesh: &TriangleMesh) -> Self {
-        // Per undirected edge: how many triangles run it upwards, how many downwards.
-        let mut uses: HashMap<(u32, u32), [u32; 2]> =
-            HashMap::with_capacity(mesh.triangles().len() * 3 / 2);
-        for &[a, b, c] in mesh.triangles() {
-            for (from, to) in [(a, b), (b, c), (c, a)] {
-                uses.entry((from.min(to), from.max(to))).or_default()[usize::from(from > to)] += 1;
-            }
+        let origin = mesh.triangles().as_flattened();
+        let mut edges = Self {
+            count: 0,
+            closed: true,
+            inconsistent: false,
+        };
+        for (low, halves) in EdgeTable::new(mesh.triangles(), mesh.positions().len()).edges() {
+            let up = halves
+                .iter()
+                .filter(|h| origin[h.1 as usize] == low)
+                .count();
+            edges.count += 1;
+            edges.closed &= halves.len() >= 2;
+            edges.inconsistent |= halves.len() >= 2 && 2 * up != halves.len();
         }
-        Self {
-            count: uses.len(),
-            closed: uses.values().all(|[up, down]| up + down >= 2),
-            inconsistent: uses.values().any(|[up, down]| up + down >= 2 && up != down),
+        edges
+    }
+
+    fn winding(&self, signed_volume: f64) -> Winding {
+        if self.inconsistent {
+            Winding::Inconsistent
+        } else if !self.closed {
+            Winding::Open
+        } else if signed_volume < 0.0 {
+            Winding::Inward
+        } else {
+            Winding::Outward
         }
     }
 }

@@ -13,7 +13,7 @@ use thiserror::Error;
 use crate::Aabb;
 use crate::digits::point;
 pub use weld::WeldReport;
-pub(crate) use weld::compacted;
+pub(crate) use weld::{compacted, without_unused};
 
 /// Altitude of a triangle over its longest edge, relative to the diagonal of the bounds, up to which the
 /// triangle counts as degenerate. Coordinates carry 1e-16 of their size, so below 1e-12 the plane of a
@@ -23,8 +23,9 @@ pub const DEGENERATE_ALTITUDE: f64 = 1e-12;
 /// Half-edge indices (three per triangle, up to three more on borders) must fit in `u32`.
 const MAX_ELEMENTS: usize = (u32::MAX / 6) as usize;
 
-/// Largest coordinate [m]: squares, areas and volumes of it stay finite.
-const MAX_COORDINATE: f64 = 1e75;
+/// Coordinates are smaller than this [m]: products of five of them stay finite in `f64`, and areas of boxes in the
+/// `f32` of search trees. Nothing that a hand touches comes near it in any unit.
+pub(crate) const MAX_COORDINATE: f64 = 1e15;
 
 /// Why points and indices are not a mesh.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -33,7 +34,7 @@ pub enum MeshError {
     #[error("the mesh has no triangles: it needs at least one")]
     Empty,
     /// NaN, infinite or so large that volumes overflow.
-    #[error("vertex {vertex} is at {}: coordinates must be finite and below 1e75", point(*.position))]
+    #[error("vertex {vertex} is at {}: coordinates must be finite and below 1e15", point(*.position))]
     BadPosition {
         /// Index of the vertex.
         vertex: usize,
@@ -201,7 +202,7 @@ impl TriangleMesh {
     /// turned to stay outward.
     ///
     /// # Errors
-    /// When a coordinate is no longer finite or below 1e75 m.
+    /// When a coordinate is no longer finite or below 1e15 m.
     pub fn scaled(&self, factor: f64) -> Result<Self, MeshError> {
         let positions = self.positions.iter().map(|&p| p * factor).collect();
         let scaled = Self::new(positions, self.triangles.clone())?;
@@ -265,7 +266,7 @@ mod tests {
     #[test]
     fn refuses_what_is_no_mesh() {
         assert_eq!(TriangleMesh::new(vec![], vec![]), Err(MeshError::Empty));
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e80] {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e16] {
             let positions = vec![DVec3::ZERO, DVec3::new(0.0, bad, 0.0), DVec3::X];
             let error = TriangleMesh::new(positions, vec![[0, 1, 2]]).unwrap_err();
             assert!(

@@ -1,8 +1,9 @@
-//! Pairing of half-edges by sorting, linking of borders, and the refusal of what is not a manifold.
+//! Pairing of half-edges, linking of borders, and the refusal of what is not a manifold.
 
 use thiserror::Error;
 
 use super::{HalfEdgeMesh, Links, Normals};
+use crate::edge_table::EdgeTable;
 use crate::{HalfEdgeId, TriangleMesh, VertexId};
 
 /// Why triangles do not form a manifold. Vertex and triangle numbers count from 0.
@@ -69,9 +70,6 @@ pub enum TopologyError {
     },
 }
 
-/// Half-edges of triangles with the undirected edge as sort key: smaller vertex, larger vertex, half-edge.
-type EdgeKey = (u32, u32, u32);
-
 impl HalfEdgeMesh {
     /// Builds connectivity and normals; the numbering of vertices and faces is that of `mesh`.
     ///
@@ -117,7 +115,7 @@ fn link(mesh: &TriangleMesh) -> Result<Links, TopologyError> {
         half_of_vertex: vec![u32::MAX; mesh.positions().len()],
         loops: Vec::new(),
     };
-    links.pair()?;
+    links.pair(mesh.triangles())?;
     links.add_borders()?;
     links.check_vertices()?;
     Ok(links)
@@ -125,17 +123,10 @@ fn link(mesh: &TriangleMesh) -> Result<Links, TopologyError> {
 
 impl Links {
     /// Twins and edges of the faces' half-edges. Edges are numbered by their first half-edge.
-    fn pair(&mut self) -> Result<(), TopologyError> {
-        let mut keys: Vec<EdgeKey> = (0..3 * self.faces)
-            .map(|h| {
-                let (a, b) = (self.origin[h as usize], self.head(h));
-                (a.min(b), a.max(b), h)
-            })
-            .collect();
-        keys.sort_unstable();
-        for group in keys.chunk_by(|p, q| (p.0, p.1) == (q.0, q.1)) {
-            let (low, high, first) = group[0];
-            if let [_, (_, _, second)] = *group {
+    fn pair(&mut self, triangles: &[[u32; 3]]) -> Result<(), TopologyError> {
+        for (low, halves) in EdgeTable::new(triangles, self.half_of_vertex.len()).edges() {
+            let (high, first) = halves[0];
+            if let [_, (_, second)] = *halves {
                 if self.origin[first as usize] == self.origin[second as usize] {
                     return Err(TopologyError::InconsistentWinding {
                         vertices: [self.origin[first as usize], self.head(first)],
@@ -144,10 +135,10 @@ impl Links {
                 }
                 self.twin[first as usize] = second;
                 self.twin[second as usize] = first;
-            } else if group.len() > 2 {
+            } else if halves.len() > 2 {
                 return Err(TopologyError::CrowdedEdge {
                     vertices: [low, high],
-                    triangles: group.len(),
+                    triangles: halves.len(),
                     first: first / 3,
                 });
             }

@@ -6,32 +6,28 @@
 //! when triangles need them.
 
 mod accessor;
+mod buffer;
+mod document;
 mod glb;
 mod scene;
 
 use std::collections::HashMap;
-use std::rc::Rc;
 
 use ::gltf::json::Root;
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use glam::{DAffine3, DVec3};
 
-use super::{LoadError, LoadReport, Loaded, MAX_LOADED};
-use crate::TriangleMesh;
+use super::validate::{Draft, limited};
+use super::{LoadError, LoadReport, Loaded};
+use crate::digits::point;
+use crate::triangle_mesh::MAX_COORDINATE;
 use accessor::Data;
+use buffer::Buffers;
 use scene::Placement;
 
-/// Required extensions that change nothing about the shape of a model start like this.
-const HARMLESS: [&str; 4] = [
-    "KHR_materials_",
-    "KHR_texture_",
-    "EXT_texture_",
-    "KHR_lights_",
-];
-
-/// Allows integer positions, which are read here.
-const QUANTIZATION: &str = "KHR_mesh_quantization";
+/// Most primitives placed: instances of meshes of many empty primitives must not take for ever.
+const MAX_PRIMITIVES: usize = 1 << 20;
 
 /// Reads a glTF (JSON) or GLB file: the default scene, or all scenes where none is marked, as one mesh in the
 /// file's unit (metres by the specification) with its node transforms applied. `resolver` gets the decoded
@@ -45,20 +41,25 @@ pub fn gltf(
 ) -> Result<Loaded, LoadError> {
     let mut report = LoadReport::default();
     let container = glb::split(bytes, &mut report)?;
-    let root = Root::from_slice(container.json).map_err(|e| LoadError::Json {
-        line: e.line(),
-        column: e.column(),
-        message: e.to_string(),
-    })?;
-    check_header(&root)?;
+    let root = document::parse(container.json, &mut report)?;
     let placements = scene::placements(&root, &mut report)?;
     let mut builder = Builder {
-        data: Data::new(&root, container.binary, resolver),
+        data: Data::new(&root, Buffers::new(&root, container.binary, resolver)),
         cache: HashMap::new(),
-        positions: Vec::new(),
-        triangles: Vec::new(),
-        report,
+        draft: Draft {
+            report,
+            ..Draft::default()
+        },
     };
+    let primitives = |p: &Placement| root.meshes[p.mesh].primitives.len().max(1);
+    let count = placements
+        .iter()
+        .map(primitives)
+        .fold(0, usize::saturating_add);
+    if count > MAX_PRIMITIVES {
+        let (what, limit) = ("instances of primitives", MAX_PRIMITIVES);
+        return Err(LoadError::TooLarge { what, limit });
+    }
     for placement in &placements {
         builder.place(&root, placement)?;
     }
@@ -72,35 +73,9 @@ fn element(path: impl Into<String>, message: impl Into<String>) -> LoadError {
     }
 }
 
-fn check_header(root: &Root) -> Result<(), LoadError> {
-    let version = &root.asset.version;
-    let parts = version.split_once('.');
-    let digits = |s: &str| !s.is_empty() && s.bytes().all(|b| b.is_ascii_digit());
-    if !parts.is_some_and(|(major, minor)| major == "2" && digits(minor)) {
-        return Err(element(
-            "asset.version",
-            format!("`{}`: expected 2.0", super::shortened(version)),
-        ));
-    }
-    if let Some(min) = root.asset.min_version.as_ref().filter(|v| *v != "2.0") {
-        return Err(element(
-            "asset.minVersion",
-            format!("`{}`: only 2.0 is supported", super::shortened(min)),
-        ));
-    }
-    let known =
-        |name: &String| name == QUANTIZATION || HARMLESS.iter().any(|h| name.starts_with(h));
-    match root.extensions_required.iter().find(|name| !known(name)) {
-        Some(name) => Err(LoadError::Extension {
-            name: super::shortened(name),
-        }),
-        None => Ok(()),
-    }
-}
-
 /// Positions of one accessor and, per position, the vertex it became in the placement being built.
 struct Shared {
-    points: Rc<Vec<DVec3>>,
+    points: Vec<DVec3>,
     vertex: Vec<u32>,
     used: Vec<u32>,
 }
@@ -108,9 +83,7 @@ struct Shared {
 struct Builder<'a> {
     data: Data<'a>,
     cache: HashMap<usize, Shared>,
-    positions: Vec<DVec3>,
-    triangles: Vec<[u32; 3]>,
-    report: LoadReport,
+    draft: Draft,
 }
 
 impl Builder<'_> {
@@ -119,7 +92,8 @@ impl Builder<'_> {
         for (i, primitive) in root.meshes[placement.mesh].primitives.iter().enumerate() {
             let path = format!("meshes[{}].primitives[{i}]", placement.mesh);
             if primitive.targets.as_ref().is_some_and(|t| !t.is_empty()) {
-                self.report
+                self.draft
+                    .report
                     .note("primitives loaded without their morph targets", &path);
             }
             let mode = match primitive.mode {
@@ -130,7 +104,8 @@ impl Builder<'_> {
                 mode,
                 Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
             ) {
-                self.report
+                self.draft
+                    .report
                     .note("primitives of points or lines skipped", path);
                 continue;
             }
@@ -138,7 +113,8 @@ impl Builder<'_> {
                 .attributes
                 .get(&Checked::Valid(Semantic::Positions))
             else {
-                self.report
+                self.draft
+                    .report
                     .note("primitives without POSITION skipped", path);
                 continue;
             };
@@ -156,7 +132,7 @@ impl Builder<'_> {
     ) -> Result<(), LoadError> {
         let mut shared = match self.cache.remove(&position) {
             Some(shared) => shared,
-            None => self.data.positions(position)?,
+            None => Shared::new(self.data.positions(position)?),
         };
         let count = shared.points.len();
         let corners: Vec<u32> = match primitive.indices {
@@ -165,55 +141,55 @@ impl Builder<'_> {
         };
         let (mut triangles, left_over, collapsed) = triangles_of(mode, &corners);
         if left_over {
-            self.report.note(
+            self.draft.report.note(
                 "primitives with incomplete last triangle: rest ignored",
                 path,
             );
         }
         if collapsed {
-            self.report.note(
+            self.draft.report.note(
                 "strips or fans with repeated corners: those triangles dropped",
                 path,
             );
         }
-        if self.triangles.len() + triangles.len() > MAX_LOADED {
-            let (what, limit) = ("triangles", MAX_LOADED);
-            return Err(LoadError::TooLarge { what, limit });
-        }
+        limited("triangles", self.draft.triangles.len() + triangles.len())?;
         if placement.mirrored {
             for [_, b, c] in &mut triangles {
                 std::mem::swap(b, c);
             }
         }
+        let first = self.draft.positions.len();
         for corners in triangles {
-            let placed = corners
-                .map(|v| shared.vertex_for(v, &mut self.positions, &placement.world_from_mesh));
-            self.triangles.push(placed);
+            let placed = corners.map(|v| {
+                shared.vertex_for(v, &mut self.draft.positions, &placement.world_from_mesh)
+            });
+            self.draft.triangles.push(placed);
         }
         shared.forget();
         self.cache.insert(position, shared);
-        Ok(())
+        let placed = &self.draft.positions[first..];
+        let unfit = |p: &&DVec3| p.is_nan() || p.abs().max_element() >= MAX_COORDINATE;
+        if let Some(p) = placed.iter().find(unfit) {
+            let message = format!(
+                "its transforms take a vertex of {path} to {}: coordinates must be finite and below {MAX_COORDINATE:e}",
+                point(*p)
+            );
+            return Err(element(format!("nodes[{}]", placement.node), message));
+        }
+        limited("vertices", self.draft.positions.len())
     }
 
-    fn finish(self, root: &Root) -> Result<Loaded, LoadError> {
-        if self.triangles.is_empty() {
-            let notes: Vec<String> = self.report.notes.iter().map(ToString::to_string).collect();
-            let counts = format!(
-                "the file has {} meshes and {} nodes",
-                root.meshes.len(),
-                root.nodes.len()
-            );
-            let found = if notes.is_empty() {
-                counts
-            } else {
-                format!("{counts}; {}", notes.join("; "))
-            };
-            return Err(LoadError::NoTriangles { found });
+    fn finish(mut self, root: &Root) -> Result<Loaded, LoadError> {
+        if self.draft.triangles.is_empty() {
+            for fault in self.data.faults() {
+                self.draft
+                    .report
+                    .note("faults in data without triangles", fault);
+            }
         }
-        Ok(Loaded {
-            mesh: TriangleMesh::new(self.positions, self.triangles)?,
-            report: self.report,
-        })
+        let (meshes, nodes) = (root.meshes.len(), root.nodes.len());
+        self.draft
+            .validated(|| format!("the file has {meshes} mesh(es) and {nodes} node(s)"))
     }
 }
 
@@ -221,7 +197,7 @@ impl Shared {
     fn new(points: Vec<DVec3>) -> Self {
         Self {
             vertex: vec![u32::MAX; points.len()],
-            points: Rc::new(points),
+            points,
             used: Vec::new(),
         }
     }
@@ -234,7 +210,7 @@ impl Shared {
     ) -> u32 {
         let slot = &mut self.vertex[local as usize];
         if *slot == u32::MAX {
-            *slot = u32::try_from(positions.len()).expect("three per triangle of at most 2^24");
+            *slot = u32::try_from(positions.len()).expect("three per triangle of at most 2^22");
             positions.push(world_from_mesh.transform_point3(self.points[local as usize]));
             self.used.push(local);
         }

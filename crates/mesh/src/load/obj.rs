@@ -16,10 +16,12 @@ use std::io::Read;
 use glam::DVec3;
 
 use super::ear_clip::{Triangulation, triangulate};
+use super::validate::Draft;
 use super::{LoadError, LoadReport, Loaded, at_line};
-use crate::TriangleMesh;
-use crate::triangle_mesh::compacted;
 use scan::{Scanned, scan};
+
+/// Most squares of corner numbers of concave faces in all: ear clipping of so many takes about ten seconds.
+const MAX_WORK: usize = 1 << 32;
 
 /// Reads an OBJ file: all objects and groups as one mesh, polygons cut into triangles, positions in the
 /// file's unit and in full `f64` precision.
@@ -30,17 +32,14 @@ use scan::{Scanned, scan};
 pub fn obj(bytes: &[u8]) -> Result<Loaded, LoadError> {
     let mut scanned = scan(bytes)?;
     let parsed = parsed(&scanned)?;
-    let positions: Vec<DVec3> = parsed
-        .positions
-        .as_chunks()
-        .0
-        .iter()
-        .map(|&p| DVec3::from_array(p))
-        .collect();
+    scanned.text = String::new();
+    let positions = parsed.positions.as_chunks().0;
+    let positions: Vec<DVec3> = positions.iter().map(|&p| DVec3::from_array(p)).collect();
     // No arities are given when there are triangles only.
     let mut arities = parsed.face_arities.iter().map(|&n| n as usize).skip(1);
     let mut rest = &parsed.indices[scanned.vertices..];
     let mut triangles = Vec::with_capacity(scanned.face_lines.len());
+    let mut work = 0;
     for &line in &scanned.face_lines {
         let (polygon, behind) = rest.split_at(arities.next().unwrap_or(3));
         rest = behind;
@@ -48,14 +47,24 @@ pub fn obj(bytes: &[u8]) -> Result<Loaded, LoadError> {
             triangles.push([a, b, c]);
         } else {
             let cut = triangulate(&positions, polygon, &mut triangles);
-            told(&cut, line, polygon.len(), &mut scanned.report)?;
+            told(cut, line, polygon.len(), &mut scanned.report)?;
+            if cut == Triangulation::Concave {
+                work += polygon.len() * polygon.len();
+            }
+            if work > MAX_WORK {
+                let message =
+                    "too many concave faces with too many corners: cut them into smaller ones";
+                return Err(at_line(line, message));
+            }
         }
     }
-    let checked = TriangleMesh::new(positions, triangles)?;
-    Ok(Loaded {
-        mesh: compacted(checked.positions(), checked.triangles()),
+    let vertices = scanned.vertices;
+    let draft = Draft {
+        positions,
+        triangles,
         report: scanned.report,
-    })
+    };
+    draft.validated(|| format!("the file has {vertices} vertices and no faces"))
 }
 
 /// Lets `tobj` read the cleaned text. It hands over only positions that a face uses, in the order of use:
@@ -83,7 +92,7 @@ fn parsed(scanned: &Scanned) -> Result<tobj::Mesh, LoadError> {
 
 /// Reports how a polygon was cut.
 fn told(
-    cut: &Triangulation,
+    cut: Triangulation,
     line: usize,
     corners: usize,
     report: &mut LoadReport,

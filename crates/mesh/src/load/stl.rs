@@ -12,10 +12,10 @@ use std::io::Cursor;
 
 use glam::{DVec3, Vec3};
 
-use super::{
-    LoadError, LoadReport, Loaded, MAX_LOADED, at_line, coordinate, shortened, text_lines,
-};
-use crate::TriangleMesh;
+use super::text::{coordinate, other_encoding, shortened, text_lines};
+use super::validate::{Draft, limited};
+use super::{LoadError, Loaded, at_line};
+use crate::triangle_mesh::MAX_COORDINATE;
 
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -23,10 +23,8 @@ const RECORD: usize = 50;
 /// Corners merged where their coordinates are equal: STL stores each triangle's corners anew.
 #[derive(Default)]
 struct Builder {
-    positions: Vec<DVec3>,
-    triangles: Vec<[u32; 3]>,
+    draft: Draft,
     index: HashMap<[u64; 3], u32>,
-    report: LoadReport,
 }
 
 /// Reads an STL file in the file's unit; all solids as one mesh, equal corners merged.
@@ -41,6 +39,12 @@ pub fn stl(bytes: &[u8]) -> Result<Loaded, LoadError> {
     let exact = stated.is_some_and(|n| {
         n.checked_mul(RECORD).and_then(|s| s.checked_add(HEADER)) == Some(bytes.len())
     });
+    if !exact
+        && matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..])
+        && let Some(error) = other_encoding(bytes)
+    {
+        return Err(error);
+    }
     match stated {
         Some(count) if exact || !is_text || bytes.contains(&0) => {
             read_binary(bytes, count, &mut builder)?;
@@ -56,14 +60,9 @@ pub fn stl(bytes: &[u8]) -> Result<Loaded, LoadError> {
             });
         }
     }
-    if builder.triangles.is_empty() {
-        let found = "the STL file has no facets".to_owned();
-        return Err(LoadError::NoTriangles { found });
-    }
-    Ok(Loaded {
-        mesh: TriangleMesh::new(builder.positions, builder.triangles)?,
-        report: builder.report,
-    })
+    builder
+        .draft
+        .validated(|| "the STL file has no facets".to_owned())
 }
 
 fn starts_with_word(bytes: &[u8], word: &[u8]) -> bool {
@@ -93,7 +92,7 @@ fn read_binary(bytes: &[u8], count: usize, builder: &mut Builder) -> Result<(), 
         });
     }
     if body.len() > count * RECORD {
-        builder.report.note(
+        builder.draft.report.note(
             "runs of bytes after the last triangle ignored",
             format!("byte {}", HEADER + count * RECORD),
         );
@@ -105,12 +104,18 @@ fn read_binary(bytes: &[u8], count: usize, builder: &mut Builder) -> Result<(), 
     let triangles = stl_io::create_stl_reader(&mut checked).map_err(|e| refused(&e))?;
     for (i, triangle) in triangles.enumerate() {
         let corners = triangle.map_err(|e| refused(&e))?.vertices.map(|v| v.0);
-        if let Some(k) = corners.iter().flatten().position(|x| !x.is_finite()) {
+        let unfit = |x: &f32| x.is_nan() || f64::from(*x).abs() >= MAX_COORDINATE;
+        if let Some(k) = corners.iter().flatten().position(unfit) {
             let value = corners[k / 3][k % 3];
+            let fault = if value.is_finite() {
+                "too large"
+            } else {
+                "not finite"
+            };
             return Err(LoadError::Binary {
                 // The coordinates come behind 12 bytes of normal.
                 offset: HEADER + i * RECORD + 12 + 4 * k,
-                message: format!("triangle {i} has coordinate {value}, which is not finite"),
+                message: format!("triangle {i} has coordinate {value:e}, which is {fault}"),
             });
         }
         builder.push(corners.map(|p| Vec3::from_array(p).as_dvec3()))?;
@@ -128,6 +133,7 @@ fn refused(error: &std::io::Error) -> LoadError {
 fn read_text(bytes: &[u8], builder: &mut Builder) -> Result<(), LoadError> {
     let mut corners: Vec<DVec3> = Vec::new();
     let mut open_since = None;
+    let mut ended = true;
     let mut last = 0;
     for (line, text) in text_lines(bytes)? {
         last = line;
@@ -159,7 +165,8 @@ fn read_text(bytes: &[u8], builder: &mut Builder) -> Result<(), LoadError> {
                 open_since = None;
             }
             None | Some("outer" | "endloop") => {}
-            Some("solid" | "endsolid") if open_since.is_none() => {}
+            Some("solid") if open_since.is_none() => ended = false,
+            Some("endsolid") if open_since.is_none() => ended = true,
             Some(word) => {
                 return Err(at_line(
                     line,
@@ -168,33 +175,33 @@ fn read_text(bytes: &[u8], builder: &mut Builder) -> Result<(), LoadError> {
             }
         }
     }
-    match open_since {
-        Some(line) => Err(at_line(
-            last,
-            format!("the file ends within the facet of line {line}: it is truncated"),
-        )),
-        None => Ok(()),
+    if let Some(line) = open_since {
+        let message = format!("the file ends within the facet of line {line}: it is truncated");
+        return Err(at_line(last, message));
     }
+    if !ended {
+        let report = &mut builder.draft.report;
+        let what = "solids without `endsolid`: the file may be cut short";
+        report.note(what, format!("line {last}"));
+    }
+    Ok(())
 }
 
 impl Builder {
     fn push(&mut self, corners: [DVec3; 3]) -> Result<(), LoadError> {
-        if self.triangles.len() >= MAX_LOADED {
-            let (what, limit) = ("triangles", MAX_LOADED);
-            return Err(LoadError::TooLarge { what, limit });
-        }
+        limited("triangles", self.draft.triangles.len() + 1)?;
         let triangle = corners.map(|p| {
-            let next =
-                u32::try_from(self.positions.len()).expect("three per triangle of at most 2^24");
+            let next = u32::try_from(self.draft.positions.len())
+                .expect("three per triangle of at most 2^22");
             // Adding zero makes -0 equal to 0.
             let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
             let index = *self.index.entry(key).or_insert(next);
             if index == next {
-                self.positions.push(p);
+                self.draft.positions.push(p);
             }
             index
         });
-        self.triangles.push(triangle);
+        self.draft.triangles.push(triangle);
         Ok(())
     }
 }

@@ -55,6 +55,19 @@ impl TriangleMesh {
     }
 }
 
+/// The mesh without the vertices that no triangle uses; the rest keeps its order.
+pub(crate) fn without_unused(mesh: TriangleMesh) -> TriangleMesh {
+    let mut used = vec![false; mesh.positions.len()];
+    for &v in mesh.triangles.as_flattened() {
+        used[v as usize] = true;
+    }
+    if used.contains(&false) {
+        compacted(&mesh.positions, &mesh.triangles)
+    } else {
+        mesh
+    }
+}
+
 /// Only the vertices that `triangles` use, in their old order.
 pub(crate) fn compacted(positions: &[DVec3], triangles: &[[u32; 3]]) -> TriangleMesh {
     let mut new_index = vec![u32::MAX; positions.len()];

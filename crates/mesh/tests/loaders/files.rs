@@ -151,7 +151,7 @@ fn broken_files_give_a_mesh_or_a_clear_error() {
         ),
         (
             "meshopt-no-fallback.gltf",
-            "needs extension EXT_meshopt_compression",
+            "needs extensions KHR_mesh_quantization, EXT_meshopt_compression",
         ),
         ("val_node_node_loop.gltf", "loop"),
         ("val_node_node_parent_override.gltf", "several parents"),

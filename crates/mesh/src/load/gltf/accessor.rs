@@ -1,17 +1,13 @@
-//! Buffers, buffer views and accessors (specification §3.6), each range checked before it is read.
-
-use std::borrow::Cow;
+//! Accessors and buffer views (specification §3.6), each range checked before it is read.
 
 use ::gltf::json::Root;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type};
 use ::gltf::json::validation::Checked;
-use base64::Engine;
-use base64::alphabet::STANDARD;
-use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::DVec3;
 
 use super::super::{LoadError, MAX_LOADED};
-use super::{QUANTIZATION, Shared, element};
+use super::buffer::{Buffers, no_data};
+use super::element;
 
 /// Most elements a sparse accessor without buffer view (all zeros but a few) may have.
 const MAX_IMPLIED: usize = 1 << 20;
@@ -19,12 +15,15 @@ const MAX_IMPLIED: usize = 1 << 20;
 /// Elements read in all, so that many accessors over the same bytes cannot fill memory and time.
 const BUDGET: usize = 4 * MAX_LOADED;
 
+/// Most accessors, buffer views and buffers that are looked at to explain a file without triangles.
+const MAX_EXPLAINED: usize = 1000;
+
+const UNKNOWN_COMPONENT: &str = "componentType is not one of the specification";
+
 /// The data of a file.
 pub(super) struct Data<'a> {
     root: &'a Root,
-    binary: Option<&'a [u8]>,
-    resolver: &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
-    buffers: Vec<Option<Cow<'a, [u8]>>>,
+    buffers: Buffers<'a>,
     budget: usize,
 }
 
@@ -38,126 +37,159 @@ struct Span {
 }
 
 impl<'a> Data<'a> {
-    pub(super) fn new(
-        root: &'a Root,
-        binary: Option<&'a [u8]>,
-        resolver: &'a mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
-    ) -> Self {
+    pub(super) fn new(root: &'a Root, buffers: Buffers<'a>) -> Self {
         Self {
             root,
-            binary,
-            resolver,
-            buffers: vec![None; root.buffers.len()],
+            buffers,
             budget: BUDGET,
         }
     }
 
     /// Positions of an accessor.
-    pub(super) fn positions(&mut self, index: usize) -> Result<Shared, LoadError> {
-        let quantized = |name: &String| name == QUANTIZATION;
-        let integers = self.root.extensions_used.iter().any(quantized)
-            || self.root.extensions_required.iter().any(quantized);
-        let allowed = |c| c == ComponentType::F32 || (integers && c != ComponentType::U32);
-        let values = self.read::<3>(index, Type::Vec3, &allowed)?;
-        let points: Vec<DVec3> = values.into_iter().map(DVec3::from_array).collect();
+    pub(super) fn positions(&mut self, index: usize) -> Result<Vec<DVec3>, LoadError> {
+        let (accessor, component) = self.typed_accessor(index, Type::Vec3)?;
+        if component != ComponentType::F32 {
+            let integers = component != ComponentType::U32;
+            let quantized = if integers {
+                " (KHR_mesh_quantization, which cannot be read here)"
+            } else {
+                ""
+            };
+            let message = format!(
+                "has positions of integers{quantized}: expected componentType 5126 (FLOAT); export them unquantized"
+            );
+            return Err(element(format!("accessors[{index}]"), message));
+        }
+        let decode = |bytes: &[u8]| {
+            let (numbers, _) = bytes.as_chunks::<4>();
+            DVec3::from_array([0, 1, 2].map(|k| f64::from(f32::from_le_bytes(numbers[k]))))
+        };
+        let points = self.read(index, accessor, (12, DVec3::ZERO), decode)?;
         match points.iter().position(|p| !p.is_finite()) {
             Some(k) => Err(element(
                 format!("accessors[{index}]"),
                 format!("element {k} is {}: positions must be finite", points[k]),
             )),
-            None => Ok(Shared::new(points)),
+            None => Ok(points),
         }
     }
 
     /// Indices of an accessor, all below `limit`.
     pub(super) fn indices(&mut self, index: usize, limit: usize) -> Result<Vec<u32>, LoadError> {
-        let allowed = |c| {
-            matches!(
-                c,
-                ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-            )
-        };
-        let values = self.read::<1>(index, Type::Scalar, &allowed)?;
-        let mut indices = Vec::with_capacity(values.len());
-        for (k, [value]) in values.into_iter().enumerate() {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "unsigned integers of 32 bits at most"
-            )]
-            let vertex = value as u32;
-            if vertex as usize >= limit {
-                let message =
-                    format!("element {k} is index {vertex}, but there are {limit} positions");
-                return Err(element(format!("accessors[{index}]"), message));
+        let (accessor, component) = self.typed_accessor(index, Type::Scalar)?;
+        let path = format!("accessors[{index}]");
+        let restart = match component {
+            ComponentType::U8 => u32::from(u8::MAX),
+            ComponentType::U16 => u32::from(u16::MAX),
+            ComponentType::U32 => u32::MAX,
+            _ => {
+                let message = "has the wrong componentType: indices must be unsigned integers (5121, 5123 or 5125)";
+                return Err(element(path, message));
             }
-            indices.push(vertex);
+        };
+        let decode = |bytes: &[u8]| unsigned(bytes, component);
+        let indices = self.read(index, accessor, (component.size(), 0), decode)?;
+        match indices.iter().position(|&v| v as usize >= limit) {
+            Some(k) if indices[k] == restart => {
+                let message = format!(
+                    "element {k} is {restart}, the value that restarts primitives: glTF has no restart, write each \
+                     strip as a primitive of its own"
+                );
+                Err(element(path, message))
+            }
+            Some(k) => {
+                let message = format!(
+                    "element {k} is index {}, but there are {limit} positions",
+                    indices[k]
+                );
+                Err(element(path, message))
+            }
+            None => Ok(indices),
         }
-        Ok(indices)
     }
 
-    /// An accessor that exists and has the given type and one of the allowed component types.
+    /// What is wrong with the accessors, buffer views and buffers of a file in which no triangle asks for them.
+    pub(super) fn faults(&mut self) -> Vec<LoadError> {
+        let root = self.root;
+        let accessors = 0..root.accessors.len().min(MAX_EXPLAINED);
+        let views = 0..root.buffer_views.len().min(MAX_EXPLAINED);
+        let buffers = 0..root.buffers.len().min(MAX_EXPLAINED);
+        let mut faults: Vec<LoadError> = accessors.filter_map(|i| self.check(i).err()).collect();
+        faults.extend(views.filter_map(|i| self.check_view(i).err()));
+        faults.extend(buffers.filter_map(|i| self.buffers.get(i).err()));
+        faults
+    }
+
+    /// Whether an accessor could be read.
+    fn check(&mut self, index: usize) -> Result<(), LoadError> {
+        let accessor = &self.root.accessors[index];
+        let path = format!("accessors[{index}]");
+        let Checked::Valid(component) = accessor.component_type else {
+            return Err(element(path, UNKNOWN_COMPONENT));
+        };
+        let Checked::Valid(kind) = accessor.type_ else {
+            return Err(element(path, "type is not one of the specification"));
+        };
+        if kind == Type::Vec3 && component.0 == ComponentType::F32 {
+            return self.positions(index).map(drop);
+        }
+        let size = kind.multiplicity() * component.0.size();
+        self.read(index, accessor, (size, ()), |_| ()).map(drop)
+    }
+
+    /// Whether a buffer view lies within its buffer.
+    fn check_view(&mut self, view: usize) -> Result<(), LoadError> {
+        let all = Span {
+            view,
+            offset: 0,
+            count: 1,
+            size: 0,
+        };
+        self.bytes(&all, &format!("bufferViews[{view}]")).map(drop)
+    }
+
+    /// An accessor that exists and has the given type, and its component type.
     fn typed_accessor(
         &self,
         index: usize,
         kind: Type,
-        allowed: &dyn Fn(ComponentType) -> bool,
     ) -> Result<(&'a Accessor, ComponentType), LoadError> {
         let path = format!("accessors[{index}]");
         let root = self.root;
         let Some(accessor) = root.accessors.get(index) else {
-            return Err(element(
-                path,
-                format!(
-                    "does not exist: the file has {} accessors",
-                    root.accessors.len()
-                ),
-            ));
+            let message = format!(
+                "does not exist: the file has {} accessors",
+                root.accessors.len()
+            );
+            return Err(element(path, message));
         };
         let Checked::Valid(component) = accessor.component_type else {
-            return Err(element(
-                path,
-                "componentType is not one of the specification",
-            ));
+            return Err(element(path, UNKNOWN_COMPONENT));
         };
-        let component = component.0;
-        if !matches!(accessor.type_, Checked::Valid(t) if t == kind) || !allowed(component) {
+        if !matches!(accessor.type_, Checked::Valid(t) if t == kind) {
             let expected = if kind == Type::Vec3 {
-                "VEC3 of FLOAT for positions"
+                "VEC3 for positions"
             } else {
-                "SCALAR of UNSIGNED integers for indices"
+                "SCALAR for indices"
             };
             return Err(element(
                 path,
                 format!("has the wrong type: expected {expected}"),
             ));
         }
-        Ok((accessor, component))
+        Ok((accessor, component.0))
     }
 
-    fn read<const N: usize>(
+    /// All elements, each `size` bytes long; without a buffer view they are as given.
+    fn read<T: Clone>(
         &mut self,
         index: usize,
-        kind: Type,
-        allowed: &dyn Fn(ComponentType) -> bool,
-    ) -> Result<Vec<[f64; N]>, LoadError> {
+        accessor: &Accessor,
+        (size, absent): (usize, T),
+        decode: impl Fn(&[u8]) -> T,
+    ) -> Result<Vec<T>, LoadError> {
         let path = format!("accessors[{index}]");
-        let (accessor, component) = self.typed_accessor(index, kind, allowed)?;
         let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
-        self.budget = self.budget.checked_sub(count).ok_or(LoadError::TooLarge {
-            what: "accessor elements",
-            limit: BUDGET,
-        })?;
-        let size = N * component.size();
-        let decode = |bytes: &[u8]| -> [f64; N] {
-            std::array::from_fn(|k| {
-                number(
-                    &bytes[k * component.size()..],
-                    component,
-                    accessor.normalized,
-                )
-            })
-        };
         let mut values = if let Some(view) = accessor.buffer_view {
             let offset = accessor.byte_offset.map_or(0, |o| o.0);
             let span = Span {
@@ -166,42 +198,54 @@ impl<'a> Data<'a> {
                 count,
                 size,
             };
+            // The count is backed by bytes before it makes anything.
+            self.bytes(&span, &path)?;
+            self.spend(count)?;
             let (bytes, stride) = self.bytes(&span, &path)?;
             (0..count)
                 .map(|i| decode(&bytes[i * stride..i * stride + size]))
                 .collect()
         } else if accessor.sparse.is_none() {
-            return Err(self.no_data(path));
+            return Err(no_data(self.root, path));
         } else if count > MAX_IMPLIED {
-            return Err(element(
-                path,
-                format!("{count} elements without a buffer view: at most {MAX_IMPLIED}"),
-            ));
+            let message = format!("{count} elements without a buffer view: at most {MAX_IMPLIED}");
+            return Err(element(path, message));
         } else {
-            vec![[0.0; N]; count]
+            self.spend(count)?;
+            vec![absent; count]
         };
-        self.apply_sparse(index, &decode, size, &mut values)?;
+        self.apply_sparse(
+            accessor,
+            &format!("{path}.sparse"),
+            (size, decode),
+            &mut values,
+        )?;
         Ok(values)
     }
 
+    fn spend(&mut self, count: usize) -> Result<(), LoadError> {
+        self.budget = self.budget.checked_sub(count).ok_or(LoadError::TooLarge {
+            what: "accessor elements",
+            limit: BUDGET,
+        })?;
+        Ok(())
+    }
+
     /// Replaces single elements (specification §3.6.2.3).
-    fn apply_sparse<const N: usize>(
+    fn apply_sparse<T>(
         &mut self,
-        index: usize,
-        decode: &dyn Fn(&[u8]) -> [f64; N],
-        size: usize,
-        values: &mut [[f64; N]],
+        accessor: &Accessor,
+        path: &str,
+        (size, decode): (usize, impl Fn(&[u8]) -> T),
+        values: &mut [T],
     ) -> Result<(), LoadError> {
-        let Some(sparse) = &self.root.accessors[index].sparse else {
+        let Some(sparse) = &accessor.sparse else {
             return Ok(());
         };
-        let path = format!("accessors[{index}].sparse");
         let count = usize::try_from(sparse.count.0).unwrap_or(usize::MAX);
         let Checked::Valid(kind) = sparse.indices.component_type else {
-            return Err(element(
-                path,
-                "componentType of the indices is not an unsigned integer",
-            ));
+            let message = "componentType of the indices is not an unsigned integer";
+            return Err(element(path, message));
         };
         let kind = kind.0;
         let span = Span {
@@ -210,29 +254,33 @@ impl<'a> Data<'a> {
             count,
             size: kind.size(),
         };
-        let (bytes, stride) = self.bytes(&span, &path)?;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "unsigned integers of 32 bits at most"
-        )]
+        self.bytes(&span, path)?;
+        self.spend(count)?;
+        let (bytes, stride) = self.bytes(&span, path)?;
         let targets: Vec<usize> = (0..count)
-            .map(|i| number(&bytes[i * stride..], kind, false) as usize)
+            .map(|i| unsigned(&bytes[i * stride..], kind) as usize)
             .collect();
+        if let Some(i) = targets.windows(2).position(|w| w[1] <= w[0]) {
+            let (this, next) = (targets[i], targets[i + 1]);
+            let message = format!(
+                "index {} is {next}, behind {this}: sparse indices must increase",
+                i + 1
+            );
+            return Err(element(path, message));
+        }
         let span = Span {
             view: sparse.values.buffer_view.value(),
             offset: sparse.values.byte_offset.0,
             count,
             size,
         };
-        let (bytes, stride) = self.bytes(&span, &path)?;
+        let (bytes, stride) = self.bytes(&span, path)?;
         for (i, target) in targets.into_iter().enumerate() {
             let total = values.len();
             let Some(value) = values.get_mut(target) else {
-                return Err(element(
-                    path,
-                    format!("index {i} is {target}, but the accessor has {total} elements"),
-                ));
+                let message =
+                    format!("index {i} is {target}, but the accessor has {total} elements");
+                return Err(element(path, message));
             };
             *value = decode(&bytes[i * stride..i * stride + size]);
         }
@@ -241,166 +289,64 @@ impl<'a> Data<'a> {
 
     /// The bytes from the first element on, long enough for all of them, and the distance between elements.
     fn bytes(&mut self, span: &Span, path: &str) -> Result<(&[u8], usize), LoadError> {
-        let Some(view) = self.root.buffer_views.get(span.view) else {
+        let root = self.root;
+        let Some(view) = root.buffer_views.get(span.view) else {
+            let count = root.buffer_views.len();
             let message = format!(
-                "refers to bufferViews[{}], but the file has {}",
-                span.view,
-                self.root.buffer_views.len()
+                "refers to bufferViews[{}], but the file has {count}",
+                span.view
             );
             return Err(element(path, message));
         };
+        let view_path = format!("bufferViews[{}]", span.view);
         let stride = view.byte_stride.map_or(span.size, |s| s.0);
         if stride < span.size {
+            let size = span.size;
             let message = format!(
-                "byteStride {stride} is smaller than the {} bytes of an element of {path}",
-                span.size
+                "byteStride {stride} is smaller than the {size} bytes of an element of {path}"
             );
-            return Err(element(format!("bufferViews[{}]", span.view), message));
-        }
-        if span.count == 0 {
-            return Ok((&[], stride));
+            return Err(element(view_path, message));
         }
         let (start, length) = (view.byte_offset.map_or(0, |o| o.0), view.byte_length.0);
-        let needed = (span.count as u64 - 1)
+        let needed = (span.count as u64)
+            .saturating_sub(1)
             .checked_mul(stride as u64)
             .and_then(|n| n.checked_add(span.size as u64)?.checked_add(span.offset));
-        if needed.is_none_or(|n| n > length) {
-            let message = format!(
-                "{} elements do not fit in the {length} bytes of bufferViews[{}]",
-                span.count, span.view
-            );
+        if span.count > 0 && needed.is_none_or(|n| n > length) {
+            let count = span.count;
+            let message =
+                format!("{count} elements do not fit in the {length} bytes of {view_path}");
             return Err(element(path, message));
         }
-        let buffer_index = view.buffer.value();
-        let buffer = self.buffer(buffer_index, span.view)?;
+        let index = view.buffer.value();
+        if index >= root.buffers.len() {
+            let count = root.buffers.len();
+            let message = format!("refers to buffers[{index}], but the file has {count}");
+            return Err(element(view_path, message));
+        }
+        let buffer = self.buffers.get(index)?;
         let end = start
             .checked_add(length)
-            .and_then(|e| usize::try_from(e).ok())
-            .filter(|&e| e <= buffer.len());
-        let (Some(end), Ok(first)) = (end, usize::try_from(start.saturating_add(span.offset)))
+            .and_then(|e| usize::try_from(e).ok());
+        let Some(content) = end.and_then(|end| buffer.get(usize::try_from(start).ok()?..end))
         else {
             let message = format!(
-                "bytes {start} to {} lie beyond the {} of buffers[{buffer_index}]",
+                "bytes {start} to {} lie beyond the {} of buffers[{index}]",
                 start.saturating_add(length),
                 buffer.len()
             );
-            return Err(element(format!("bufferViews[{}]", span.view), message));
+            return Err(element(view_path, message));
         };
-        Ok((&buffer[first..end], stride))
-    }
-
-    /// The content of a buffer, fetched at the first use and cut to its stated length.
-    fn buffer(&mut self, index: usize, view: usize) -> Result<&[u8], LoadError> {
-        let Some(buffer) = self.root.buffers.get(index) else {
-            let message = format!(
-                "refers to buffers[{index}], but the file has {}",
-                self.root.buffers.len()
-            );
-            return Err(element(format!("bufferViews[{view}]"), message));
-        };
-        if self.buffers[index].is_none() {
-            let path = format!("buffers[{index}]");
-            let content = match &buffer.uri {
-                Some(uri) => Cow::Owned(fetch(uri, &path, self.resolver)?),
-                None => match self.binary {
-                    Some(binary) if index == 0 => Cow::Borrowed(binary),
-                    _ => return Err(self.no_data(path)),
-                },
-            };
-            let stated = usize::try_from(buffer.byte_length.0).unwrap_or(usize::MAX);
-            if content.len() < stated {
-                return Err(element(
-                    path,
-                    format!(
-                        "byteLength is {stated}, but only {} bytes are there",
-                        content.len()
-                    ),
-                ));
-            }
-            self.buffers[index] = Some(content);
-        }
-        let content = self.buffers[index].as_deref().unwrap_or_default();
-        let stated = usize::try_from(buffer.byte_length.0).unwrap_or(usize::MAX);
-        Ok(&content[..stated.min(content.len())])
-    }
-
-    /// The error for data that is nowhere: usually it is compressed by an extension the file merely "uses".
-    fn no_data(&self, path: String) -> LoadError {
-        let compression = |name: &&String| name.contains("_compression");
-        match self.root.extensions_used.iter().find(compression) {
-            Some(name) => LoadError::Extension {
-                name: super::super::shortened(name),
-            },
-            None => element(
-                path,
-                "has no data: neither a buffer view, a uri nor a binary chunk holds it",
-            ),
-        }
+        let first = usize::try_from(span.offset).unwrap_or(usize::MAX);
+        Ok((content.get(first..).unwrap_or_default(), stride))
     }
 }
 
-fn number(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
-    fn take<const N: usize>(bytes: &[u8]) -> [u8; N] {
-        std::array::from_fn(|k| bytes[k])
+/// The unsigned integer at the start of `bytes`, which are long enough.
+fn unsigned(bytes: &[u8], component: ComponentType) -> u32 {
+    match component {
+        ComponentType::U8 => u32::from(bytes[0]),
+        ComponentType::U16 => u32::from(u16::from_le_bytes([bytes[0], bytes[1]])),
+        _ => u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]),
     }
-    let (value, full) = match component {
-        ComponentType::I8 => (f64::from(i8::from_le_bytes(take(bytes))), 127.0),
-        ComponentType::U8 => (f64::from(bytes[0]), 255.0),
-        ComponentType::I16 => (f64::from(i16::from_le_bytes(take(bytes))), 32767.0),
-        ComponentType::U16 => (f64::from(u16::from_le_bytes(take(bytes))), 65535.0),
-        ComponentType::U32 => return f64::from(u32::from_le_bytes(take(bytes))),
-        ComponentType::F32 => return f64::from(f32::from_le_bytes(take(bytes))),
-    };
-    if normalized {
-        (value / full).max(-1.0)
-    } else {
-        value
-    }
-}
-
-/// Data URIs are decoded here, relative paths given to the caller, others refused.
-fn fetch(
-    uri: &str,
-    path: &str,
-    resolver: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
-) -> Result<Vec<u8>, LoadError> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let Some((_, encoded)) = data.split_once(";base64,") else {
-            return Err(element(path, "its data: URI is not base64"));
-        };
-        let config =
-            GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
-        return GeneralPurpose::new(&STANDARD, config)
-            .decode(encoded.trim_ascii())
-            .map_err(|e| element(path, format!("its data: URI is broken: {e}")));
-    }
-    let shown = super::super::shortened(uri);
-    let scheme = uri.split_once(':').is_some_and(|(s, _)| {
-        s.len() > 1
-            && s.bytes()
-                .all(|b| b.is_ascii_alphanumeric() || b"+-.".contains(&b))
-    });
-    if scheme || uri.starts_with('/') || uri.is_empty() {
-        return Err(element(
-            path,
-            format!("`{shown}` is not a relative path: put the buffer beside the file"),
-        ));
-    }
-    let name = percent_decoded(uri)
-        .ok_or_else(|| element(path, format!("`{shown}` is not a valid URI")))?;
-    resolver(&name).map_err(|e| element(path, format!("`{shown}`: {e}")))
-}
-
-fn percent_decoded(uri: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(uri.len());
-    let mut rest = uri.bytes();
-    while let Some(byte) = rest.next() {
-        bytes.push(if byte == b'%' {
-            let pair = [rest.next()?, rest.next()?];
-            u8::from_str_radix(std::str::from_utf8(&pair).ok()?, 16).ok()?
-        } else {
-            byte
-        });
-    }
-    String::from_utf8(bytes).ok()
 }

@@ -1,5 +1,6 @@
 //! The GLB container (specification §4): header and chunks, checked against the bytes that are there.
 
+use super::super::text::other_encoding;
 use super::super::{LoadError, LoadReport};
 
 const MAGIC: &[u8] = b"glTF";
@@ -26,6 +27,9 @@ pub(super) fn split<'a>(
     }
     if json.trim_ascii_start().first() == Some(&b'{') {
         return Ok(Container { json, binary: None });
+    }
+    if let Some(error) = other_encoding(bytes) {
+        return Err(error);
     }
     Err(LoadError::Encoding {
         found: "neither GLB (`glTF` at the start) nor JSON text (`{` at the start)",
@@ -84,7 +88,9 @@ fn chunks<'a>(bytes: &'a [u8], report: &mut LoadReport) -> Result<Container<'a>,
     let file = stated_part(bytes, report)?;
     let length = file.len();
     let (mut json, mut binary) = (None, None);
+    let at_byte = |offset| format!("byte {offset}");
     let mut offset = 12;
+    let mut chunk = 0;
     while offset < length {
         let size = word(file, offset)?;
         let start = offset + 8;
@@ -104,13 +110,28 @@ fn chunks<'a>(bytes: &'a [u8], report: &mut LoadReport) -> Result<Container<'a>,
                 return Err(fault(offset, "a second JSON chunk: there must be one"));
             }
             (_, None, _) => return Err(fault(offset, "the first chunk is not JSON: it must be")),
-            (BIN, _, None) => binary = Some(content),
+            (BIN, _, None) => {
+                if chunk > 1 {
+                    report.note(
+                        "binary chunks behind others read, though it must be the second",
+                        at_byte(offset),
+                    );
+                }
+                binary = Some(content);
+            }
             (BIN, _, Some(_)) => {
                 return Err(fault(offset, "a second binary chunk: there may be one"));
             }
-            _ => report.note("chunks of unknown type ignored", format!("byte {offset}")),
+            _ => report.note("chunks of unknown type ignored", at_byte(offset)),
+        }
+        if size % 4 != 0 {
+            report.note(
+                "chunks whose length is no multiple of 4 read",
+                at_byte(offset),
+            );
         }
         offset = start + size;
+        chunk += 1;
     }
     match json {
         Some([]) => Err(fault(12, "the JSON chunk is empty")),

@@ -10,9 +10,14 @@ use super::element;
 /// Most nodes visited: a node below several parents is visited once for each, which can double per level.
 const MAX_VISITS: usize = 1 << 18;
 
+/// Determinants up to this, with columns of unit length, are rounding: the columns lie in one plane.
+const SINGULAR: f64 = 1e-12;
+
 /// A mesh at a node.
 pub(super) struct Placement {
     pub(super) mesh: usize,
+    /// The node; 0 for meshes without one.
+    pub(super) node: usize,
     pub(super) world_from_mesh: DAffine3,
     /// The transform turns left into right, so triangles must be turned back.
     pub(super) mirrored: bool,
@@ -53,22 +58,21 @@ pub(super) fn placements(
                     format!("nodes[{index}]"),
                 );
             }
-            let determinant = world_from_mesh.matrix3.determinant();
-            if !determinant.is_finite() {
-                return Err(element(
-                    format!("nodes[{index}]"),
-                    "its transform overflows",
-                ));
+            let determinant = relative_determinant(&world_from_mesh);
+            if !determinant.is_finite() || !world_from_mesh.translation.is_finite() {
+                let message = "the product of its transform and those above it overflows";
+                return Err(element(format!("nodes[{index}]"), message));
             }
-            if determinant == 0.0 {
+            if determinant.abs() <= SINGULAR {
                 report.note(
-                    "meshes skipped that their node scales to nothing",
+                    "meshes skipped whose nodes press them flat (a singular transform)",
                     format!("nodes[{index}]"),
                 );
             } else {
                 let mirrored = determinant < 0.0;
                 placements.push(Placement {
                     mesh,
+                    node: index,
                     world_from_mesh,
                     mirrored,
                 });
@@ -81,6 +85,27 @@ pub(super) fn placements(
         placements = meshes_alone(root, report);
     }
     Ok(placements)
+}
+
+/// Determinant of the linear part over the lengths of its columns (mesh.15): 1 without shear, 0 for a transform that
+/// presses space flat, negative for one that mirrors it, whatever the scale. Infinite or NaN when it overflows.
+fn relative_determinant(a_from_b: &DAffine3) -> f64 {
+    let m = a_from_b.matrix3;
+    let columns = [m.x_axis, m.y_axis, m.z_axis];
+    if !columns.iter().all(|c| c.is_finite()) {
+        return f64::NAN;
+    }
+    // Twice, because the square of a very small or large length leaves the range of f64.
+    let [x, y, z] = columns.map(|c| {
+        let scaled = c / c.abs().max_element();
+        scaled / scaled.length()
+    });
+    let determinant = x.dot(y.cross(z));
+    if determinant.is_nan() {
+        0.0
+    } else {
+        determinant
+    }
 }
 
 fn check_visits(visits: usize) -> Result<(), LoadError> {
@@ -102,6 +127,7 @@ fn meshes_alone(root: &Root, report: &mut LoadReport) -> Vec<Placement> {
         );
         Placement {
             mesh,
+            node: 0,
             world_from_mesh: DAffine3::IDENTITY,
             mirrored: false,
         }

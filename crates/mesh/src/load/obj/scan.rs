@@ -1,7 +1,9 @@
 //! The pass over the lines of an OBJ file before `tobj` reads it: it finds faults, leaves out what is no
 //! polygon, notes both with the line, and writes a text of `v` and `f` records only.
 
-use super::super::{LoadError, LoadReport, MAX_LOADED, at_line, coordinate, shortened, text_lines};
+use super::super::text::{coordinate, shortened, text_lines};
+use super::super::validate::limited;
+use super::super::{LoadError, LoadReport, at_line};
 
 /// Keywords that say nothing about the shape of polygons.
 const PASSED_OVER: [&str; 14] = [
@@ -52,7 +54,8 @@ struct Scanner {
 pub(super) fn scan(bytes: &[u8]) -> Result<Scanned, LoadError> {
     let mut scanner = Scanner::default();
     for (line, text) in text_lines(bytes)? {
-        let mut tokens = text.split_whitespace().take_while(|t| !t.starts_with('#'));
+        let text = text.split('#').next().unwrap_or_default();
+        let mut tokens = text.split_whitespace();
         match tokens.next() {
             None => {}
             Some("v") => scanner.vertex(tokens, line)?,
@@ -74,7 +77,8 @@ impl Scanner {
         self.scanned.report.note(what, format!("line {line}"));
     }
 
-    /// Keeps the three coordinates; a weight or a colour after them says nothing about polygons.
+    /// Keeps the three coordinates. What follows says nothing about polygons: a colour, or the weight of a control
+    /// point, by which some programs nevertheless divide.
     fn vertex<'a>(
         &mut self,
         mut tokens: impl Iterator<Item = &'a str>,
@@ -91,6 +95,11 @@ impl Scanner {
             text.push_str(token);
         }
         text.push('\n');
+        if let (Some(weight), None) = (tokens.next(), tokens.next())
+            && weight.parse() != Ok(1.0)
+        {
+            self.note("fourth coordinates other than 1 ignored", line);
+        }
         self.scanned.vertices += 1;
         limited("vertices", self.scanned.vertices)
     }
@@ -174,13 +183,7 @@ impl Scanner {
             vertices, report, ..
         } = &self.scanned;
         if self.scanned.face_lines.is_empty() {
-            let notes: Vec<String> = report.notes.iter().map(ToString::to_string).collect();
-            let found = if notes.is_empty() {
-                format!("the file has {vertices} vertices and no faces")
-            } else {
-                format!("the file has {vertices} vertices; {}", notes.join("; "))
-            };
-            return Err(LoadError::NoTriangles { found });
+            return Err(report.nothing_found(format!("the file has {vertices} vertices")));
         }
         let count = signed(*vertices);
         match self.forward.iter().find(|(_, index)| *index > count) {
@@ -191,14 +194,6 @@ impl Scanner {
             None => Ok(self.scanned),
         }
     }
-}
-
-fn limited(what: &'static str, count: usize) -> Result<(), LoadError> {
-    if count > MAX_LOADED {
-        let limit = MAX_LOADED;
-        return Err(LoadError::TooLarge { what, limit });
-    }
-    Ok(())
 }
 
 fn signed(count: usize) -> i64 {
