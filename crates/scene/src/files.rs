@@ -13,13 +13,18 @@ pub trait Files {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
 }
 
-/// Files of this machine.
+/// Files of this machine: regular ones, because a scene or a mesh can name any path and a device or a pipe has no end.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Disk;
 
 impl Files for Disk {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
-        std::fs::read(path)
+        if std::fs::metadata(path)?.is_file() {
+            std::fs::read(path)
+        } else {
+            let message = "it is a folder or a device, not a file";
+            Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+        }
     }
 }
 
@@ -33,5 +38,19 @@ impl Files for MemoryFiles {
             .get(path)
             .cloned()
             .ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "there is no such file"))
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::{Disk, Files};
+    use std::path::Path;
+
+    #[test]
+    fn what_has_no_end_is_not_read() {
+        for path in ["/dev/zero", "/dev", "../../../../../../../../dev/zero"] {
+            let error = Disk.read(Path::new(path)).unwrap_err();
+            assert!(error.to_string().contains("not a file"), "{path}: {error}");
+        }
     }
 }

@@ -38,7 +38,11 @@ pub(super) fn convex(
     } else {
         ConvexMesh::from_triangles(&mesh)
     };
-    convex.map_err(|error| fault(in_metres(&error)))
+    let file = match shape {
+        ShapeDescription::Mesh(file) => format!("`{}`: ", file.path),
+        _ => String::new(),
+    };
+    convex.map_err(|error| fault(format!("{file}{}", in_metres(&error))))
 }
 
 /// What stands in the way, with the unit that the mesh itself does not know: scenes scale their meshes to metres.

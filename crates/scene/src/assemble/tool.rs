@@ -17,7 +17,13 @@ use crate::schema::ToolShape;
 /// The segments of the scene's tool, from the clamp to the tip, in the handle's frame.
 pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMesh>, SceneError> {
     let tool = &scene.description().tool;
-    let fault = |message: String| scene.fault_at("tool.shape", Fault::Geometry(message));
+    let named = match &tool.shape {
+        ToolShape::Mesh { file, .. } => format!("`{}`: ", file.path),
+        _ => String::new(),
+    };
+    let fault = |message: String| {
+        scene.fault_at("tool.shape", Fault::Geometry(format!("{named}{message}")))
+    };
     let count = tool.segments.get();
     let convex = |mesh: &TriangleMesh| {
         ConvexMesh::from_triangles(mesh).map_err(|error| fault(in_metres(&error)))
