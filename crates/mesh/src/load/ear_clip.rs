@@ -180,7 +180,8 @@ fn convex_fan(flat: &[DVec2], outline: &[u32]) -> Option<Vec<[u32; 3]>> {
             .map(|i| twice_area(start, start + i, start + i + 1))
             .fold(f64::INFINITY, f64::min)
     };
-    let start = if smallest(0) > straight {
+    // Beyond what can be clipped any fan will do.
+    let start = if n > MAX_CONCAVE || smallest(0) > straight {
         0
     } else if n <= MAX_SEARCHED {
         (0..n).max_by(|&i, &j| smallest(i).total_cmp(&smallest(j)).then(j.cmp(&i)))?
@@ -188,7 +189,7 @@ fn convex_fan(flat: &[DVec2], outline: &[u32]) -> Option<Vec<[u32; 3]>> {
         return None;
     };
     // A triangle has one way only; a thin one is left to whoever looks at the mesh.
-    if n > 3 && smallest(start) <= straight {
+    if (4..=MAX_SEARCHED).contains(&n) && smallest(start) <= straight {
         return None;
     }
     let corner = |i: usize| outline[(start + i) % n];

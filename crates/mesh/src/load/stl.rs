@@ -39,10 +39,7 @@ pub fn stl(bytes: &[u8]) -> Result<Loaded, LoadError> {
     let exact = stated.is_some_and(|n| {
         n.checked_mul(RECORD).and_then(|s| s.checked_add(HEADER)) == Some(bytes.len())
     });
-    if !exact
-        && matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..])
-        && let Some(error) = other_encoding(bytes)
-    {
+    if !exact && let Some(error) = other_encoding(bytes) {
         return Err(error);
     }
     match stated {

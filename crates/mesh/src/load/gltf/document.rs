@@ -37,6 +37,23 @@ const OPTIONAL: [&str; 10] = [
     "extensionsUsed",
 ];
 
+/// Members that hold sizes and real numbers, or anything.
+const NO_INDICES: [&str; 13] = [
+    "byteLength",
+    "byteOffset",
+    "byteStride",
+    "count",
+    "extensions",
+    "extras",
+    "matrix",
+    "max",
+    "min",
+    "rotation",
+    "scale",
+    "translation",
+    "weights",
+];
+
 /// Most objects in the text: each takes up to some hundred bytes of memory, and three bytes of text are enough
 /// for one.
 const MAX_OBJECTS: usize = 1 << 19;
@@ -82,6 +99,14 @@ pub(super) fn parse(json: &[u8], report: &mut LoadReport) -> Result<Root, LoadEr
         })??,
     };
     check_extensions(root.extensions_required.iter().map(String::as_str))?;
+    // Ten digits in a row, because the crate takes indices modulo 2³².
+    let long = |run: &[u8]| run.len() > 9 && run[0].is_ascii_digit();
+    let mut runs = json.chunk_by(|a, b| a.is_ascii_digit() && b.is_ascii_digit());
+    if runs.any(long)
+        && let Ok(value) = deserialize::from_slice(json)
+    {
+        check_indices("", &value)?;
+    }
     check_version("asset.version", &root.asset.version)?;
     if let Some(least) = &root.asset.min_version {
         check_version("asset.minVersion", least)?;
@@ -118,6 +143,7 @@ fn second_try(
     {
         return Some(Err(error));
     }
+    drop_extras(&mut value);
     let file = value.as_object_mut()?;
     for name in OPTIONAL {
         file.remove(name);
@@ -135,6 +161,40 @@ fn second_try(
     let root = deserialize::from_value(value).ok()?;
     report.note("faults outside of the triangles ignored", fault);
     Some(Ok(root))
+}
+
+/// Takes away what programs keep for themselves: it can be any value, and the crate expects an object.
+fn drop_extras(value: &mut Value) {
+    match value {
+        Value::Array(items) => items.iter_mut().for_each(drop_extras),
+        Value::Object(members) => {
+            members.remove("extras");
+            members.values_mut().for_each(drop_extras);
+        }
+        _ => {}
+    }
+}
+
+/// No index and no code is beyond 2³² − 1, to the depth of 128 that the parser allows.
+fn check_indices(path: &str, value: &Value) -> Result<(), LoadError> {
+    match value {
+        Value::Number(number) if number.as_u64().is_some_and(|n| n > u64::from(u32::MAX)) => {
+            let path = path.trim_start_matches('.');
+            Err(element(
+                path,
+                format!("{number} is out of range: at most 4294967295"),
+            ))
+        }
+        Value::Array(items) => items
+            .iter()
+            .enumerate()
+            .try_for_each(|(i, item)| check_indices(&format!("{path}[{i}]"), item)),
+        Value::Object(members) => members
+            .iter()
+            .filter(|(name, _)| !NO_INDICES.contains(&name.as_str()))
+            .try_for_each(|(name, item)| check_indices(&format!("{path}.{name}"), item)),
+        _ => Ok(()),
+    }
 }
 
 fn check_extensions<'a>(required: impl Iterator<Item = &'a str>) -> Result<(), LoadError> {
