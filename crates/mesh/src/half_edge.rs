@@ -70,7 +70,7 @@ impl HalfEdgeMesh {
         self.links.origin.len()
     }
 
-    /// V − E + F: two per closed shell without handles.
+    /// V − E + F: two per closed shell without handles (mesh.6).
     pub fn euler_number(&self) -> i64 {
         let [v, e, f] =
             [self.vertex_count(), self.edge_count(), self.face_count()].map(usize::cast_signed);

@@ -250,7 +250,7 @@ impl<'a> Hull<'a> {
         self.orientation(face, point) / self.faces[face as usize].twice_area
     }
 
-    /// Six times the volume between a face and a point, positive above; the sign is exact.
+    /// Six times the volume between a face and a point, positive above; the sign is exact (mesh.12).
     fn orientation(&self, face: u32, point: u32) -> f64 {
         let [a, b, c] = self.faces[face as usize]
             .corners

@@ -114,7 +114,7 @@ pub fn inspect(mesh: &TriangleMesh) -> MeshReport {
     }
 }
 
-/// Edge facts that hold for any triangles, manifold or not.
+/// Edge facts that hold for any triangles, manifold or not (mesh.3).
 struct Edges {
     count: usize,
     closed: bool,

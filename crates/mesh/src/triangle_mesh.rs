@@ -143,7 +143,7 @@ impl TriangleMesh {
         self.bounds
     }
 
-    /// Enclosed volume [m³]; negative when the triangles face inwards; without meaning for an open mesh.
+    /// Enclosed volume [m³] (mesh.1); negative when the triangles face inwards; without meaning for an open mesh.
     pub fn signed_volume(&self) -> f64 {
         let origin = self.bounds.center();
         let six_fold: f64 = self
@@ -179,7 +179,7 @@ impl TriangleMesh {
             .count()
     }
 
-    /// Triangles with a repeated corner, or thinner than [`DEGENERATE_ALTITUDE`] of the mesh.
+    /// Triangles with a repeated corner, or thinner than [`DEGENERATE_ALTITUDE`] of the mesh (mesh.2).
     pub fn degenerate_triangles(&self) -> Vec<u32> {
         let limit = DEGENERATE_ALTITUDE * self.bounds.diagonal();
         (0..)

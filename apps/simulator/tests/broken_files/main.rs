@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// Longest time one file may take: far above what the slowest needs on a busy machine in a debug build.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// Address space one file may take [KiB]; only Linux has a shell that sets it.
 const MEMORY: &str = "1048576";

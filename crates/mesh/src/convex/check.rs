@@ -87,7 +87,7 @@ fn check_solid(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), Conve
     Ok(())
 }
 
-/// Refuses the most concave edge; otherwise the sum of all concave angles [rad]. Infinite where faces too
+/// Refuses the most concave edge; otherwise the sum of all concave angles [rad] (mesh.9). Infinite where faces too
 /// thin to have a plane hide edges.
 fn check_edges(
     topology: &HalfEdgeMesh,
@@ -147,7 +147,7 @@ fn centroid_of(mesh: &TriangleMesh) -> DVec3 {
     origin + moment / (4.0 * volume)
 }
 
-/// The solid angles of all triangles seen from `center` add up to one full turn (A. van Oosterom and
+/// The solid angles of all triangles seen from `center` add up to one full turn (mesh.11) (A. van Oosterom and
 /// J. Strackee, "The solid angle of a plane triangle", IEEE TBME 30(2), 1983, eq. 8).
 fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityError> {
     let total: f64 = (0..)
@@ -167,7 +167,7 @@ fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityErro
     }
 }
 
-/// Refuses the highest vertex over any face plane.
+/// Refuses the highest vertex over any face plane (mesh.8).
 fn check_planes(
     topology: &HalfEdgeMesh,
     thick: &[bool],

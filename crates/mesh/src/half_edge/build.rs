@@ -198,7 +198,7 @@ impl Links {
         Ok(())
     }
 
-    /// The half-edges around each vertex form one ring.
+    /// The half-edges around each vertex form one ring (mesh.4).
     fn check_vertices(&self) -> Result<(), TopologyError> {
         let mut degree = vec![0_usize; self.half_of_vertex.len()];
         for &v in &self.origin {

@@ -90,6 +90,7 @@ fn neighbour_mean(normals: &[DVec3], links: &Links, face: u32) -> DVec3 {
     })
 }
 
+/// Sum of the unit normals left and right (mesh.7).
 fn edge_normal(face: &[DVec3], links: &Links, half: u32) -> DVec3 {
     let left = face[(half / 3) as usize];
     let right = links
@@ -98,6 +99,7 @@ fn edge_normal(face: &[DVec3], links: &Links, half: u32) -> DVec3 {
     unit_or(left + right, || left)
 }
 
+/// Sum of the unit normals around, weighted by corner angle (mesh.7).
 fn vertex_normal(positions: &[DVec3], face: &[DVec3], links: &Links, vertex: VertexId) -> DVec3 {
     let p = positions[vertex.index()];
     let mut sum = DVec3::ZERO;

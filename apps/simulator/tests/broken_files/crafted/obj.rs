@@ -25,6 +25,7 @@ fn obj_oddities() {
         format!("{text}{face}\nf 1 2 3\n").into_bytes()
     };
     let groups = |n: usize| format!("{cube}{}{faces}", "g\no\nusemtl\n".repeat(n)).into_bytes();
+    let words = (0..200_000).fold(String::new(), |text, i| text + "w" + &i.to_string() + "\n");
     let cases = vec![
         ("sound", sound.clone().into_bytes(), Touched(12)),
         (
@@ -163,10 +164,7 @@ fn obj_oddities() {
         ),
         (
             "garbage_words",
-            (0..200_000)
-                .map(|i| format!("w{i}\n"))
-                .collect::<String>()
-                .into_bytes(),
+            words.into_bytes(),
             Refused("more unknown statements skipped"),
         ),
         (

@@ -32,7 +32,7 @@ impl VertexTree {
         tree
     }
 
-    /// The highest vertex with `normal · p > offset` and its height over that plane [m], if any.
+    /// The highest vertex with `normal · p > offset` and its height over that plane [m], if any (mesh.10).
     pub(super) fn highest_above(&self, normal: DVec3, offset: f64) -> Option<(u32, f64)> {
         let spread = normal.abs();
         let mut best = None;

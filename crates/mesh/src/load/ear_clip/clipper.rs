@@ -115,12 +115,14 @@ impl<'a> Clipper<'a> {
         }
     }
 
+    /// At the place of the corner before, or where the outline turns back (mesh.14).
     fn is_spike(&self, corner: u32) -> bool {
         let [a, b, c] = self.corners(corner).map(|i| self.flat[i as usize]);
         a == b || turns_back(a, b, c)
     }
 
-    /// Turns left, and no other corner lies in the triangle or enters it where it touches one of its corners.
+    /// Turns left, and no other corner lies in the triangle or enters it where it touches one of its corners
+    /// (mesh.13).
     fn is_ear(&self, corner: u32) -> bool {
         let own = self.corners(corner);
         let [a, b, c] = own.map(|i| self.flat[i as usize]);
