@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("read and validated  {:7.0} ms", 1e3 * read.as_secs_f64());
     println!(
         "search tree         {:7.0} ms",
-        1e3 * (ready - read).as_secs_f64()
+        1e3 * ready.saturating_sub(read).as_secs_f64()
     );
     println!("together            {:7.0} ms", 1e3 * ready.as_secs_f64());
     drop(tree);
