@@ -9,11 +9,12 @@ use pliant_contact::PaperParameters;
 use pliant_device::{ScriptedDevice, Trajectory, WorkspaceMap};
 use pliant_sim::{Method, Object, Tool, VirtualCoupling, World, WorldDescription, WorldError};
 
-use crate::error::{Fault, SceneError};
+use self::shape::FaceBudget;
+use crate::error::{Fault, SceneError, shortened};
 use crate::files::Files;
 use crate::scene::Scene;
 use crate::schema::{MethodName, ObjectDescription};
-use crate::trajectory_file::read_trajectory;
+use crate::trajectory_file::{in_words, read_trajectory};
 
 /// A scene that is ready to run.
 #[derive(Clone, Debug)]
@@ -46,12 +47,13 @@ impl Scene {
     /// With line and column, when a file is missing or damaged, a shape is not convex, or parts do not fit.
     pub fn build(&self, files: &dyn Files) -> Result<BuiltScene, SceneError> {
         let description = self.description();
+        let mut budget = FaceBudget::FULL;
         let tool = Tool {
-            segments: tool::segments(self, files)?,
+            segments: tool::segments(self, files, &mut budget)?,
         };
         let mut objects = Vec::with_capacity(description.objects.len());
         for (index, object) in description.objects.iter().enumerate() {
-            objects.push(self.object(index, object, files)?);
+            objects.push(self.object(index, object, (files, &mut budget))?);
         }
         let coupling = &description.coupling;
         let world = World::new(WorldDescription {
@@ -100,12 +102,12 @@ impl Scene {
         &self,
         index: usize,
         object: &ObjectDescription,
-        files: &dyn Files,
+        sources: (&dyn Files, &mut FaceBudget),
     ) -> Result<Object, SceneError> {
         let path = format!("objects[{index}].shape");
         Ok(Object {
             name: object.name.clone(),
-            shape: shape::convex(self, &object.shape, &path, files)?,
+            shape: shape::convex(self, &object.shape, &path, sources)?,
             world_from_object: object.pose.pose(),
             shading_threshold: object
                 .shading_threshold_deg
@@ -131,7 +133,7 @@ impl Scene {
         recorded
             .mapped(&placement.pose.pose(), placement.scale.get())
             .and_then(|mapped| mapped.retimed(placement.speed.get()))
-            .map_err(|error| self.fault_at("trajectory", Fault::Trajectory(error.to_string())))
+            .map_err(|error| self.fault_at("trajectory", Fault::Trajectory(in_words(&error))))
     }
 
     /// The bytes of a file that the field at `field` names, and its path.
@@ -148,7 +150,7 @@ impl Scene {
             Err(error) => Err(self.fault_at(
                 field,
                 Fault::File {
-                    path: path.display().to_string(),
+                    path: shortened(&path.display().to_string()).into_owned(),
                     reason: error.to_string(),
                 },
             )),

@@ -1,5 +1,6 @@
 //! What can be wrong with a scene, and where.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use thiserror::Error;
@@ -90,6 +91,16 @@ pub enum Fault {
     /// The parts are sound and do not fit together.
     #[error("{0}")]
     World(String),
+}
+
+/// `text` as messages quote it: its beginning, where it is long.
+pub(crate) fn shortened(text: &str) -> Cow<'_, str> {
+    /// Characters that are quoted whole: paths and names are seldom longer.
+    const LONGEST: usize = 200;
+    match text.char_indices().nth(LONGEST) {
+        None => Cow::Borrowed(text),
+        Some((end, _)) => Cow::Owned(format!("{}…", &text[..end])),
+    }
 }
 
 /// Line and column, both from 1, the column in characters, of byte `offset` of `text`.

@@ -24,8 +24,8 @@ pub use error::{Fault, Place, SceneError};
 pub use files::{Disk, Files, MemoryFiles};
 pub use mesh_file::{MESH_EXTENSIONS, read_mesh};
 pub use quantity::{
-    Coordinate, Count, Damping, Degrees, Direction, Duration, Factor, Length, RadiusOrPoint,
-    Segments, Sizes, Stiffness, ThresholdDegrees, Vector,
+    Coordinate, Count, Damping, Degrees, Direction, Duration, Factor, Length, Offset,
+    RadiusOrPoint, Segments, Sizes, Stiffness, ThresholdDegrees, Vector,
 };
 pub use scene::Scene;
 pub use schema::{

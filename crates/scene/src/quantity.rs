@@ -15,6 +15,9 @@ use crate::digits::refused;
 /// Lengths above this are taken for a unit mistake: no hand-held scene is a kilometre wide [m].
 const LONGEST: f64 = 1000.0;
 
+/// Positions beyond this are a slip, and motions that reach there are refused as well [m].
+const FARTHEST: f64 = 1e6;
+
 /// Tools are cut into ten or twenty; a number far above that is a slip, paid for in every tick.
 const MOST_SEGMENTS: u32 = 100;
 
@@ -97,10 +100,16 @@ number!(
     "a finite angle in degrees"
 );
 number!(
-    /// One component of a vector: finite.
+    /// One component of a direction: finite.
     Coordinate,
     f64::is_finite,
     "a finite number"
+);
+number!(
+    /// One component of a position [m]: at most 1000 km from the origin, where a double still resolves 0.1 nm.
+    Offset,
+    |v| v.abs() <= FARTHEST,
+    "a coordinate from -1000000 to 1000000 m"
 );
 number!(
     /// A dihedral threshold [degrees]: above 0, up to 180.
@@ -195,7 +204,7 @@ impl From<Segments> for f64 {
     }
 }
 
-/// Three finite numbers, `(x, y, z)` or `[x, y, z]`.
+/// A position [m], `(x, y, z)` or `[x, y, z]`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Vector(pub DVec3);
 
@@ -250,7 +259,7 @@ where
 
 impl<'de> Deserialize<'de> for Vector {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        triple::<Coordinate, D>(deserializer).map(Self)
+        triple::<Offset, D>(deserializer).map(Self)
     }
 }
 

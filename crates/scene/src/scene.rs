@@ -1,14 +1,16 @@
 //! From text and overrides to a scene description.
 
+use std::collections::HashMap;
+
 use ron::Options;
 use ron::error::SpannedResult;
 use ron::extensions::Extensions;
 
-use crate::error::{Fault, SceneError};
+use crate::error::{Fault, SceneError, shortened};
 use crate::explain::explained;
 use crate::recognise::not_a_scene;
 use crate::schema::SceneDescription;
-use crate::text::{Override, SceneText, is_one_value, quoted};
+use crate::text::{Override, SceneText, one_value, quoted};
 
 /// A scene that was read and is well formed; [`Scene::build`] makes it ready to run.
 #[derive(Clone, Debug)]
@@ -26,8 +28,8 @@ impl Scene {
     pub fn from_str(text: &str, file_name: &str) -> Result<Self, SceneError> {
         // Some editors put a byte order mark before the text.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if let Some(message) = not_a_scene(text.as_bytes()) {
-            let place = SceneText::new(text, file_name).place(0);
+        if let Some((at, message)) = not_a_scene(text.as_bytes()) {
+            let place = SceneText::new(text, file_name).place(at);
             return Err(SceneError::new(place, Fault::Syntax(message)));
         }
         Self::read(SceneText::new(text, file_name))?.with_names_checked()
@@ -41,15 +43,10 @@ impl Scene {
         let text = str::from_utf8(bytes).map_err(|error| {
             let readable = str::from_utf8(&bytes[..error.valid_up_to()]).unwrap_or_default();
             let text = SceneText::new(readable, file_name);
-            let (offset, message) = not_a_scene(bytes).map_or_else(
-                || {
-                    (
-                        readable.len(),
-                        "not UTF-8 text; save the scene as UTF-8".to_owned(),
-                    )
-                },
-                |message| (0, message),
-            );
+            let (offset, message) = not_a_scene(bytes).unwrap_or_else(|| {
+                let message = "not UTF-8 text; save the scene as UTF-8";
+                (readable.len(), message.to_owned())
+            });
             SceneError::new(text.place(offset), Fault::Syntax(message))
         })?;
         Self::from_str(text, file_name)
@@ -63,10 +60,10 @@ impl Scene {
         let scene = overrides.iter().try_fold(self, |scene, setting| {
             // A bare word may stand for a string: `trajectory.path=other.csv`. What reads as RON is taken as RON.
             let as_string = quoted(&setting.value);
-            if !is_one_value(&setting.value) {
+            let Some(value) = one_value(&setting.value) else {
                 return Self::read(scene.text.with_override(setting, &as_string)?);
-            }
-            Self::read(scene.text.with_override(setting, &setting.value)?).or_else(|error| {
+            };
+            Self::read(scene.text.with_override(setting, value)?).or_else(|error| {
                 let text = scene.text.with_override(setting, &as_string)?;
                 Self::read(text).map_err(|_| error)
             })
@@ -85,13 +82,15 @@ impl Scene {
     fn with_names_checked(self) -> Result<Self, SceneError> {
         let objects = &self.description.objects;
         let path = |index: usize| format!("objects[{index}].name");
+        let mut seen = HashMap::with_capacity(objects.len());
         for (index, object) in objects.iter().enumerate() {
             let name = &object.name;
             let message = if name.trim().is_empty() {
                 "the name is empty; expected a text that tells the object apart from others"
                     .to_owned()
-            } else if let Some(first) = objects[..index].iter().position(|o| o.name == *name) {
+            } else if let Some(first) = seen.insert(name.as_str(), index) {
                 let first = self.text.place_of(&path(first));
+                let name = shortened(name);
                 format!("another object is named {name:?} too, at {first}; give each its own name")
             } else {
                 continue;

@@ -163,7 +163,15 @@ impl SceneText {
             let ahead = self.current.get(start..end).unwrap_or_default();
             return start + ahead.len() - ahead.trim_start().len();
         };
-        let at_start = root.innermost(start);
+        // The reader may have stood before the blank in front of what it then read.
+        let read = self.current.get(start..end).unwrap_or_default();
+        let blank = read.len() - read.trim_start().len();
+        let begin = if blank < read.len() {
+            start + blank
+        } else {
+            start
+        };
+        let at_start = root.innermost(begin);
         let at_end = root.innermost(end);
         if at_start == root.span && at_end == root.span {
             // A field of the scene itself is missing: its first byte says no more than the reader's position.
@@ -181,6 +189,20 @@ impl SceneText {
         let word = self.current.get(span.clone())?;
         let is_plain = !word.contains(['(', '[', ':']) || word.starts_with('"');
         is_plain.then_some(span)
+    }
+
+    /// The name of the field whose value should begin at byte `offset`.
+    pub(crate) fn field_before(&self, offset: usize) -> Option<&str> {
+        let before = self.current.get(..offset)?.trim_end().strip_suffix(':')?;
+        let before = before.trim_end();
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let name = &before[before.trim_end_matches(is_part).len()..];
+        (!name.is_empty()).then_some(name)
+    }
+
+    /// Whether the text is one value with all its brackets, quotes and comments closed.
+    pub(crate) fn is_balanced(&self) -> bool {
+        outline(&self.current).is_some()
     }
 
     /// The name of the innermost field whose value holds byte `offset`.
@@ -356,7 +378,7 @@ fn dead_end(inside: &Inside, step: &Step<'_>, parent: &str) -> String {
     }
 }
 
-/// Whether `text` is one RON value and nothing else.
-pub(crate) fn is_one_value(text: &str) -> bool {
-    outline(text).is_some()
+/// The one RON value that `text` is, without comments around it: written into a scene, a comment would hide what follows.
+pub(crate) fn one_value(text: &str) -> Option<&str> {
+    text.get(outline(text)?.span)
 }

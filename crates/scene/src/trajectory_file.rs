@@ -8,7 +8,8 @@ use glam::{DQuat, DVec3};
 use pliant_device::{TimedPose, Trajectory, TrajectoryError};
 use pliant_spatial::Pose;
 
-use crate::error::{Fault, Place, SceneError, line_and_column};
+use crate::digits::number;
+use crate::error::{Fault, Place, SceneError, line_and_column, shortened};
 
 /// The columns a file must have.
 const COLUMNS: [&str; 8] = ["t_s", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
@@ -43,6 +44,48 @@ struct Header {
     columns: [usize; 8],
     feed: Option<usize>,
     count: usize,
+}
+
+impl Header {
+    /// The column of what [`Trajectory::new`] calls a quantity.
+    fn column_of(&self, quantity: &str) -> usize {
+        match quantity {
+            "position x" => self.columns[1],
+            "position y" => self.columns[2],
+            "position z" => self.columns[3],
+            _ => self.columns[0],
+        }
+    }
+}
+
+/// Why samples make no motion, for those who see lines and columns, in short numbers.
+pub(crate) fn in_words(error: &TrajectoryError) -> String {
+    match *error {
+        TrajectoryError::OutOfRange {
+            quantity,
+            value,
+            limit,
+            ..
+        } => format!(
+            "the {quantity} is {}, beyond ±{}; times are in seconds and positions in metres",
+            number(value),
+            number(limit)
+        ),
+        TrajectoryError::OutOfOrder { time, previous, .. } => format!(
+            "the time {} s is before {} s of the sample before it; sort the lines by time",
+            number(time),
+            number(previous)
+        ),
+        TrajectoryError::Quaternion { norm, .. } => format!(
+            "the quaternion has norm {}, a rotation has 1; check the column order qx, qy, qz, qw",
+            number(norm)
+        ),
+        TrajectoryError::Speed { speed } => format!(
+            "at {} times the speed no usable times are left between samples; choose one nearer 1",
+            number(speed)
+        ),
+        _ => error.to_string(),
+    }
 }
 
 impl<'a> Table<'a> {
@@ -86,9 +129,10 @@ impl<'a> Table<'a> {
             let column = match error {
                 TrajectoryError::OutOfOrder { .. } => header.columns[0],
                 TrajectoryError::Quaternion { .. } => header.columns[4],
+                TrajectoryError::OutOfRange { quantity, .. } => header.column_of(quantity),
                 _ => 0,
             };
-            self.fault(row.unwrap_or(self.text.len()), column, &error.to_string())
+            self.fault(row.unwrap_or(self.text.len()), column, &in_words(&error))
         })
     }
 
@@ -96,7 +140,7 @@ impl<'a> Table<'a> {
         let expected = || format!("expected {} and optionally {FEED}", COLUMNS.join(","));
         for (index, name) in record.iter().enumerate() {
             if name != FEED && !COLUMNS.contains(&name) {
-                let message = format!("unknown column `{name}`; {}", expected());
+                let message = format!("unknown column `{}`; {}", shortened(name), expected());
                 return Err(self.fault(row, index, &message));
             }
             if record.iter().take(index).any(|earlier| earlier == name) {
@@ -143,7 +187,7 @@ impl<'a> Table<'a> {
                 self.fault(
                     row,
                     column,
-                    &format!("`{field}` is no finite number; expected one"),
+                    &format!("`{}` is no finite number; expected one", shortened(field)),
                 )
             })
         };

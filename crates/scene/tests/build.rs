@@ -99,6 +99,20 @@ fn faults_of_geometry_and_files_have_their_place() {
             "faces are more",
         ),
         (
+            "shape: capsule(length: 0.1, radius: 0.005, sectors: 4096, bands: 4096)",
+            BOX,
+            "",
+            "f/s.ron:2:15: ",
+            "67108864 faces are more than 4000000; choose fewer sectors",
+        ),
+        (
+            ROD,
+            "latitude_longitude_ellipsoid(radii: (1, 1, 1), sectors: 2000, bands: 1000)",
+            "",
+            "f/s.ron:3:30: ",
+            "4000000 faces are more than the 3999988 that are left of 4000000 for a whole scene; choose fewer",
+        ),
+        (
             "shape: capsule(length: 0.01, radius: 0.005)",
             BOX,
             "",

@@ -89,7 +89,7 @@ fn numbers_out_of_range_are_refused_where_they_stand() {
         (
             "(0, 0, -0.025)",
             "(0, NaN, 0)",
-            "s.ron:11:34: NaN is out of range; expected a finite number",
+            "s.ron:11:34: NaN is out of range; expected a coordinate from -1000000 to 1000000 m",
         ),
         (
             "(0, 0, 1)",
@@ -266,7 +266,7 @@ fn words_in_place_of_numbers_say_what_number_is_expected() {
         (
             "(0, 0, -0.025)",
             "(0, 0, -25mm)",
-            "s.ron:11:37: expected a number, not `-25mm`: a finite number",
+            "s.ron:11:37: expected a number, not `-25mm`: a coordinate from",
         ),
         (
             "segments: 1",

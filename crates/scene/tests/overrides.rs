@@ -150,3 +150,16 @@ fn later_faults_of_the_file_keep_their_place_in_the_file() {
     let start = "--set objects[1].shape.path=gone.stl: cannot read `gone.stl`";
     assert!(error.to_string().starts_with(start), "{error}");
 }
+
+#[test]
+fn comments_in_a_value_hide_nothing_of_the_scene() {
+    // Written into one line, all that follows would be part of the comment.
+    let text = TEXT.replace('\n', " ");
+    let scene = Scene::from_str(&text, "s.ron").unwrap();
+    for value in ["paper // faithful", "/* a */ paper /* b */", "paper//"] {
+        let setting = Override::parse(&format!("method={value}")).unwrap();
+        let set = scene.clone().with_overrides(&[setting]).unwrap();
+        assert_eq!(set.description().method, MethodName::Paper, "{value}");
+        assert_eq!(set.description().objects.len(), 2, "{value}");
+    }
+}

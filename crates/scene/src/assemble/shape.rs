@@ -9,25 +9,51 @@ use crate::mesh_file::read_mesh;
 use crate::scene::Scene;
 use crate::schema::{MeshFile, ShapeDescription};
 
-/// Faces beyond this are taken for a mistake: each is checked against its neighbours when the scene is loaded.
+/// Faces of a whole scene beyond this are taken for a mistake: each is checked against its neighbours when the scene is
+/// loaded, and takes some 300 bytes.
 const MOST_FACES: u64 = 4_000_000;
+
+/// Faces that the surfaces of a scene may still have: a short text can name many large ones.
+pub(super) struct FaceBudget {
+    left: u64,
+}
+
+impl FaceBudget {
+    pub(super) const FULL: Self = Self { left: MOST_FACES };
+
+    /// Takes the faces of one surface, or says that they are too many.
+    pub(super) fn take(&mut self, faces: u64) -> Result<(), String> {
+        if let Some(left) = self.left.checked_sub(faces) {
+            self.left = left;
+            return Ok(());
+        }
+        let limit = if self.left == MOST_FACES {
+            MOST_FACES.to_string()
+        } else {
+            format!(
+                "the {} that are left of {MOST_FACES} for a whole scene",
+                self.left
+            )
+        };
+        Err(format!(
+            "{faces} faces are more than {limit}; choose fewer sectors, bands or points, or a coarser mesh"
+        ))
+    }
+}
 
 /// The convex surface of an object; `path` is that of its shape in the scene.
 pub(super) fn convex(
     scene: &Scene,
     shape: &ShapeDescription,
     path: &str,
-    files: &dyn Files,
+    (files, budget): (&dyn Files, &mut FaceBudget),
 ) -> Result<ConvexMesh, SceneError> {
     let fault = |message: String| scene.fault_at(path, Fault::Geometry(message));
-    if let Some(faces) = face_count(shape)
-        && faces > MOST_FACES
-    {
-        return Err(fault(format!(
-            "{faces} faces are more than {MOST_FACES}; choose fewer sectors or bands"
-        )));
-    }
+    budget.take(generated_faces(shape)).map_err(fault)?;
     let mesh = surface(scene, shape, path, files)?;
+    if let ShapeDescription::Mesh(_) = shape {
+        budget.take(mesh.triangles().len() as u64).map_err(fault)?;
+    }
     let hull = match shape {
         ShapeDescription::Mesh(file) => file.convex_hull,
         ShapeDescription::Tube { convex_hull, .. } => *convex_hull,
@@ -56,15 +82,22 @@ pub(super) fn in_metres(error: &ConvexityError) -> String {
     }
 }
 
-fn face_count(shape: &ShapeDescription) -> Option<u64> {
-    let (sectors, bands) = match shape {
+/// Most faces that a generated shape has; 0 for files, which are counted once they are read.
+fn generated_faces(shape: &ShapeDescription) -> u64 {
+    let (around, along) = match shape {
+        ShapeDescription::Cuboid { .. } | ShapeDescription::Plate { .. } => (6, 1),
+        ShapeDescription::Cylinder { sectors, .. } | ShapeDescription::Cone { sectors, .. } => {
+            (sectors.get(), 2)
+        }
+        ShapeDescription::Tube { sectors, .. } => (sectors.get(), 4),
         ShapeDescription::Capsule { sectors, bands, .. } => (sectors.get(), 2 * bands.get()),
         ShapeDescription::LatitudeLongitudeEllipsoid { sectors, bands, .. } => {
             (sectors.get(), bands.get())
         }
-        _ => return None,
+        ShapeDescription::FibonacciEllipsoid { points, .. } => (points.get(), 1),
+        ShapeDescription::Mesh(_) => (0, 0),
     };
-    Some(2 * u64::from(sectors) * u64::from(bands))
+    2 * u64::from(around) * u64::from(along)
 }
 
 /// The surface as it is described, convex or not.

@@ -7,7 +7,7 @@ use pliant_mesh::generate::{self, GenerateError};
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 use pliant_spatial::Pose;
 
-use super::shape::{in_metres, mesh_in_metres};
+use super::shape::{FaceBudget, in_metres, mesh_in_metres};
 use crate::digits::number;
 use crate::error::{Fault, SceneError};
 use crate::files::Files;
@@ -15,7 +15,11 @@ use crate::scene::Scene;
 use crate::schema::ToolShape;
 
 /// The segments of the scene's tool, from the clamp to the tip, in the handle's frame.
-pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMesh>, SceneError> {
+pub(super) fn segments(
+    scene: &Scene,
+    files: &dyn Files,
+    budget: &mut FaceBudget,
+) -> Result<Vec<ConvexMesh>, SceneError> {
     let tool = &scene.description().tool;
     let named = match &tool.shape {
         ToolShape::Mesh { file, .. } => format!("`{}`: ", file.path),
@@ -25,6 +29,9 @@ pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMes
         scene.fault_at("tool.shape", Fault::Geometry(format!("{named}{message}")))
     };
     let count = tool.segments.get();
+    budget
+        .take(generated_faces(&tool.shape, count))
+        .map_err(fault)?;
     let convex = |mesh: &TriangleMesh| {
         ConvexMesh::from_triangles(mesh).map_err(|error| fault(in_metres(&error)))
     };
@@ -39,6 +46,7 @@ pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMes
     let (whole, hull) = match &tool.shape {
         ToolShape::Mesh { file, axis } => {
             let mesh = mesh_in_metres(scene, file, "tool.shape.file", files)?;
+            budget.take(mesh.triangles().len() as u64).map_err(fault)?;
             (along_x(&mesh, axis.unit()), file.convex_hull)
         }
         generated => {
@@ -61,6 +69,22 @@ pub(super) fn segments(scene: &Scene, files: &dyn Files) -> Result<Vec<ConvexMes
             })
         })
         .collect()
+}
+
+/// Most faces that a generated tool has; 0 for files, which are counted once they are read.
+fn generated_faces(shape: &ToolShape, count: u32) -> u64 {
+    let faces = match shape {
+        ToolShape::Rod { .. } => 12,
+        ToolShape::Pin { sectors, .. } | ToolShape::Cone { sectors, .. } => {
+            4 * u64::from(sectors.get())
+        }
+        // Of the whole; the borders of its segments add less than as many again.
+        ToolShape::Capsule { sectors, bands, .. } => {
+            return 4 * u64::from(sectors.get()) * u64::from(bands.get());
+        }
+        ToolShape::Mesh { .. } => 0,
+    };
+    faces * u64::from(count)
 }
 
 /// Where segment `index` of `count` begins [m].
