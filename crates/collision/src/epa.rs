@@ -21,38 +21,73 @@ use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 mod polytope;
 mod seed;
+mod surface;
 
 use polytope::{Growth, Polytope};
 use seed::Seed;
+pub(crate) use surface::Surface;
+
+/// A gap at which a repeated support point is rounding and not a dent in a recalled surface, times the largest coordinate.
+const DENT: f64 = 1e-12;
 
 /// How one run on buffers of a given size ended.
-enum Outcome {
-    /// The bound is tight, or as tight as rounding lets it be.
-    Found(Plane),
-    /// The buffers were too small; the best so far.
-    Full(Plane),
+struct Expansion {
+    plane: Plane,
+    /// A vertex found no room: the plane is a bound, the best so far.
+    full: bool,
+    /// The polytope is another than at the start.
+    grown: bool,
+    /// A face was given up that lies lower than the plane.
+    doubtful: bool,
 }
 
-/// The supporting plane of the difference nearest to the origin, which GJK found inside or on it. Allocates nothing.
+/// The supporting plane of the difference nearest to the origin, which GJK found inside or on it. `surface` becomes the
+/// start for a placement nearby. Allocates nothing.
 pub(crate) fn shallowest<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     simplex: &Simplex,
+    surface: &mut Surface,
 ) -> Plane
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
+    surface.clear();
     let tetrahedron = match seed::complete(difference, simplex) {
         Seed::Solid(tetrahedron) => tetrahedron,
         Seed::Flat(normal) => return flat(difference, simplex, normal),
     };
     // Nearly every query ends in the small buffers; clearing the large ones costs microseconds.
-    match expand::<A, B, 64, 128>(difference, &tetrahedron) {
-        Outcome::Found(plane) => plane,
-        Outcome::Full(_) => match expand::<A, B, 1024, 2048>(difference, &tetrahedron) {
-            Outcome::Found(plane) | Outcome::Full(plane) => plane,
-        },
+    let mut polytope = Polytope::<48, 96>::new(&tetrahedron);
+    let small = expand(difference, &mut polytope);
+    if !small.full {
+        polytope.remember(surface);
+        return small.plane;
     }
+    expand(difference, &mut Polytope::<1024, 2048>::new(&tetrahedron)).plane
+}
+
+/// The same, started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in
+/// addition the origin lies below all its faces, then it lies inside, and no face of the difference is nearer than the
+/// nearest of these: between any of them and the origin there are only convex combinations of points of the difference.
+/// The surface need not be convex for that. `None`: it does not enclose the origin any more.
+pub(crate) fn shallowest_from<A, B>(
+    surface: &mut Surface,
+    difference: &MinkowskiDifference<'_, A, B>,
+) -> Option<Plane>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut polytope = Polytope::<32, 64>::recall(surface, difference)?;
+    let found = expand(difference, &mut polytope);
+    if found.full || found.doubtful || (found.grown && !polytope.encloses_origin()) {
+        return None;
+    }
+    if found.grown {
+        polytope.remember(surface);
+    }
+    Some(found.plane)
 }
 
 /// Depth of a difference without volume: nothing, along its normal.
@@ -95,20 +130,17 @@ fn nearest_of_faces(tetrahedron: &Simplex) -> Simplex {
 
 fn expand<A, B, const VERTICES: usize, const FACES: usize>(
     difference: &MinkowskiDifference<'_, A, B>,
-    tetrahedron: &[DifferencePoint; 4],
-) -> Outcome
+    polytope: &mut Polytope<VERTICES, FACES>,
+) -> Expansion
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let mut polytope = Polytope::<VERTICES, FACES>::new(tetrahedron);
-    let scale = tetrahedron.iter().fold(0.0, |largest: f64, vertex| {
-        largest.max(vertex.point.length())
-    });
+    let scale = polytope.scale();
     let tolerance = GAP_TOLERANCE * scale;
     let mut bound = f64::INFINITY;
     let mut outward = DVec3::X;
-    let mut full = false;
+    let (mut full, mut grown, mut doubtful) = (false, false, false);
     while let Some(face) = polytope.lowest_open_face() {
         let (normal, height) = polytope.plane(face);
         if height >= bound - tolerance {
@@ -125,11 +157,15 @@ where
         }
         if polytope.contains_vertex(&support) {
             polytope.close(face);
+            doubtful |= reach - height > DENT * scale;
             continue;
         }
-        match grow(&mut polytope, face, support, tolerance) {
-            Growth::Grown => {}
-            Growth::Torn => polytope.close(face),
+        match grow(polytope, face, support, tolerance) {
+            Growth::Grown => grown = true,
+            Growth::Torn => {
+                polytope.close(face);
+                doubtful = true;
+            }
             Growth::NoRoom => {
                 full = true;
                 break;
@@ -141,10 +177,11 @@ where
         separation: -bound,
         simplex: polytope.feature_at(outward * bound, bound + NOISE * scale + tolerance),
     };
-    if full {
-        Outcome::Full(plane)
-    } else {
-        Outcome::Found(plane)
+    Expansion {
+        plane,
+        full,
+        grown,
+        doubtful,
     }
 }
 
@@ -152,7 +189,7 @@ where
 /// and once with all of them removed.
 fn grow<const VERTICES: usize, const FACES: usize>(
     polytope: &mut Polytope<VERTICES, FACES>,
-    face: u16,
+    face: usize,
     vertex: DifferencePoint,
     tolerance: f64,
 ) -> Growth {

@@ -10,7 +10,7 @@
 use glam::DVec3;
 use pliant_spatial::Pose;
 
-use crate::epa;
+use crate::epa::{self, Surface};
 use crate::simplex::{NOISE, Nearest, Simplex};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
@@ -26,11 +26,13 @@ const STALL_LIMIT: u32 = 4;
 
 /// Where the last query ended, as vertex indices of both shapes: start of the next one at a nearby placement.
 ///
-/// Keep one per pair of shapes. A cache filled by other shapes is harmless and merely slow. No heap, 40 bytes.
+/// Keep one per pair of shapes. A cache filled by other shapes is harmless and merely slow. No heap, about 500 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SimplexCache {
     pairs: [[u32; 2]; 4],
     len: u32,
+    /// Where EPA ended, if the last query did.
+    surface: Surface,
 }
 
 /// Nearest points of two shapes, or deepest ones in overlap; everything in A's frame.
@@ -89,16 +91,22 @@ where
     B: SupportMap + ?Sized,
 {
     let difference = MinkowskiDifference::new(a, b, a_from_b);
+    if !cache.surface.is_empty()
+        && let Some(plane) = epa::shallowest_from(&mut cache.surface, &difference)
+    {
+        return witnesses(&difference, &plane);
+    }
     let plane = match search(&difference, cache, Goal::Distance) {
         Exit::Apart(plane) => {
             cache.remember(&plane.simplex);
+            cache.surface.clear();
             plane
         }
         Exit::Meeting(simplex) => {
             // The tetrahedron around the origin, not the face found: a sliver from that face to the far side would cost
             // EPA more rounds than it saves.
             cache.remember(&simplex);
-            epa::shallowest(&difference, &simplex)
+            epa::shallowest(&difference, &simplex, &mut cache.surface)
         }
     };
     witnesses(&difference, &plane)

@@ -56,13 +56,14 @@ impl Simplex {
         &self.weights[..self.len]
     }
 
-    /// A triangle with the weights of a point on it.
-    pub(crate) fn triangle(vertices: [DifferencePoint; 3], weights: [f64; 3]) -> Self {
-        let mut simplex = Self::EMPTY;
-        simplex.vertices[..3].copy_from_slice(&vertices);
-        simplex.weights[..3].copy_from_slice(&weights);
-        simplex.len = 3;
-        simplex
+    /// A triangle, its nearest point not yet known.
+    pub(crate) fn triangle(vertices: [DifferencePoint; 3]) -> Self {
+        let [p, q, r] = vertices;
+        Self {
+            vertices: [p, q, r, DifferencePoint::ZERO],
+            weights: [0.0; 4],
+            len: 3,
+        }
     }
 
     /// Adds a vertex; a fifth is ignored.

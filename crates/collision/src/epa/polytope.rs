@@ -2,8 +2,9 @@
 
 use glam::DVec3;
 
+use crate::epa::surface::Surface;
 use crate::simplex::Simplex;
-use crate::support::DifferencePoint;
+use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 /// What became of an attempt to add a vertex.
 pub(crate) enum Growth {
@@ -15,36 +16,13 @@ pub(crate) enum Growth {
     Torn,
 }
 
-/// Lifecycle of a slot of the face buffer.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Status {
-    Free,
-    Open,
-    /// Part of the boundary, but never to be grown again.
-    Closed,
-}
-
+/// Corners and neighbours of a face; `across[k]` is the face behind the edge from corner k to corner k + 1.
 #[derive(Clone, Copy)]
 struct Face {
-    normal: DVec3,
-    /// Signed distance of the face's plane from the origin [m].
-    height: f64,
     corners: [u16; 3],
-    /// `across[k]`: the face behind the edge from corner k to corner k + 1.
     across: [u16; 3],
-    status: Status,
+    live: bool,
     visible: bool,
-}
-
-impl Face {
-    const FREE: Self = Self {
-        normal: DVec3::ZERO,
-        height: 0.0,
-        corners: [0; 3],
-        across: [0; 3],
-        status: Status::Free,
-        visible: false,
-    };
 }
 
 /// An edge between what the new vertex sees and what it does not.
@@ -55,6 +33,17 @@ struct HorizonEdge {
     /// The face beyond, which stays, and the number of this edge in it.
     beyond: u16,
     edge_of_beyond: u16,
+    /// The face raised on the edge.
+    slot: u16,
+}
+
+impl Face {
+    const FREE: Self = Self {
+        corners: [0; 3],
+        across: [0; 3],
+        live: false,
+        visible: false,
+    };
 }
 
 impl HorizonEdge {
@@ -63,36 +52,60 @@ impl HorizonEdge {
         to: 0,
         beyond: 0,
         edge_of_beyond: 0,
+        slot: 0,
     };
 }
 
 const NONE: u16 = u16::MAX;
 
-/// A closed surface of triangles wound outward.
+/// A closed surface of triangles wound outward. What each step scans lies in arrays of its own.
 pub(crate) struct Polytope<const VERTICES: usize, const FACES: usize> {
     vertices: [DifferencePoint; VERTICES],
-    vertex_count: u16,
+    vertex_count: usize,
     faces: [Face; FACES],
+    /// Outward unit normals.
+    normals: [DVec3; FACES],
+    /// Signed distances of the faces' planes from the origin [m]; infinite without area.
+    heights: [f64; FACES],
+    /// The same of faces that may still grow; infinite for all others.
+    open: [f64; FACES],
     /// Slots in use or freed; beyond it all are untouched.
-    face_end: u16,
-    face_count: u16,
+    face_end: usize,
+    face_count: usize,
+    /// Scratch of [`Polytope::grow`].
+    visible: [u16; FACES],
+    horizon: [HorizonEdge; FACES],
+    leaving: [u16; VERTICES],
 }
 
 impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
-    pub(crate) fn new(tetrahedron: &[DifferencePoint; 4]) -> Self {
-        let mut polytope = Self {
+    fn empty() -> Self {
+        Self {
             vertices: [DifferencePoint::ZERO; VERTICES],
-            vertex_count: 4,
+            vertex_count: 0,
             faces: [Face::FREE; FACES],
-            face_end: 4,
-            face_count: 4,
-        };
+            normals: [DVec3::ZERO; FACES],
+            heights: [f64::INFINITY; FACES],
+            open: [f64::INFINITY; FACES],
+            face_end: 0,
+            face_count: 0,
+            visible: [0; FACES],
+            horizon: [HorizonEdge::NONE; FACES],
+            leaving: [NONE; VERTICES],
+        }
+    }
+
+    pub(crate) fn new(tetrahedron: &[DifferencePoint; 4]) -> Self {
+        let mut polytope = Self::empty();
         let mut corners = *tetrahedron;
         let [p, q, r, s] = tetrahedron.map(|vertex| vertex.point);
         if (q - p).cross(r - p).dot(s - p) > 0.0 {
             corners.swap(1, 2);
         }
         polytope.vertices[..4].copy_from_slice(&corners);
+        polytope.vertex_count = 4;
+        polytope.face_end = 4;
+        polytope.face_count = 4;
         polytope.set_face(0, [0, 1, 2], [3, 2, 1]);
         polytope.set_face(1, [0, 2, 3], [0, 2, 3]);
         polytope.set_face(2, [2, 1, 3], [0, 3, 1]);
@@ -100,58 +113,141 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         polytope
     }
 
-    /// The open face with the smallest signed height.
-    pub(crate) fn lowest_open_face(&self) -> Option<u16> {
-        let mut lowest = None;
-        let mut height = f64::INFINITY;
-        for index in 0..self.face_end {
-            let face = &self.faces[usize::from(index)];
-            if face.status == Status::Open && face.height < height {
-                height = face.height;
-                lowest = Some(index);
+    /// A surface of an earlier placement at the present one. `None` unless it fits and every face has the origin below it.
+    pub(crate) fn recall<A, B>(
+        surface: &Surface,
+        difference: &MinkowskiDifference<'_, A, B>,
+    ) -> Option<Self>
+    where
+        A: SupportMap + ?Sized,
+        B: SupportMap + ?Sized,
+    {
+        let mut polytope = Self::empty();
+        for (vertex, &[a, b]) in polytope.vertices.iter_mut().zip(surface.vertices()) {
+            *vertex = difference.vertex(a, b);
+        }
+        polytope.vertex_count = surface.vertices().len();
+        polytope.face_count = surface.faces().len();
+        polytope.face_end = polytope.face_count;
+        for (slot, &(corners, across)) in surface.faces().iter().enumerate() {
+            polytope.set_face(slot, corners.map(u16::from), across.map(u16::from));
+            if !polytope.is_below(slot) {
+                return None;
             }
         }
-        lowest
+        Some(polytope)
+    }
+
+    /// What a later query may start from; nothing where it is too large or the origin not below every face.
+    pub(crate) fn remember(&self, surface: &mut Surface) {
+        surface.clear();
+        let mut number = [u8::MAX; VERTICES];
+        let mut renamed = [u8::MAX; FACES];
+        let mut count = 0;
+        for slot in 0..self.face_end {
+            if !self.faces[slot].live {
+                continue;
+            }
+            if !self.is_below(slot) || count == u8::MAX {
+                return;
+            }
+            renamed[slot] = count;
+            count += 1;
+        }
+        for slot in 0..self.face_end {
+            let face = self.faces[slot];
+            if !face.live {
+                continue;
+            }
+            for corner in face.corners.map(usize::from) {
+                if number[corner] == u8::MAX {
+                    let vertex = &self.vertices[corner];
+                    number[corner] = match surface.add_vertex([vertex.a, vertex.b]) {
+                        Some(index) => index,
+                        None => return,
+                    };
+                }
+            }
+            let corners = face.corners.map(|corner| number[usize::from(corner)]);
+            let across = face.across.map(|beyond| renamed[usize::from(beyond)]);
+            if !surface.add_face(corners, across) {
+                return;
+            }
+        }
+    }
+
+    /// The open face with the smallest signed height.
+    pub(crate) fn lowest_open_face(&self) -> Option<usize> {
+        let mut lowest = 0;
+        let mut height = f64::INFINITY;
+        for (slot, &candidate) in self.open[..self.face_end].iter().enumerate() {
+            if candidate < height {
+                height = candidate;
+                lowest = slot;
+            }
+        }
+        (height < f64::INFINITY).then_some(lowest)
     }
 
     /// Outward unit normal and signed height of a face.
-    pub(crate) fn plane(&self, face: u16) -> (DVec3, f64) {
-        let face = &self.faces[usize::from(face)];
-        (face.normal, face.height)
+    pub(crate) fn plane(&self, face: usize) -> (DVec3, f64) {
+        (self.normals[face], self.heights[face])
     }
 
-    pub(crate) fn corner(&self, face: u16) -> DifferencePoint {
-        self.vertices[usize::from(self.faces[usize::from(face)].corners[0])]
+    pub(crate) fn corner(&self, face: usize) -> DifferencePoint {
+        self.vertices[usize::from(self.faces[face].corners[0])]
     }
 
     pub(crate) fn contains_vertex(&self, vertex: &DifferencePoint) -> bool {
-        self.vertices[..usize::from(self.vertex_count)]
+        self.vertices[..self.vertex_count]
             .iter()
             .any(|own| own.same_vertices(vertex))
     }
 
     /// Takes a face out of the search; it stays part of the surface.
-    pub(crate) fn close(&mut self, face: u16) {
-        self.faces[usize::from(face)].status = Status::Closed;
+    pub(crate) fn close(&mut self, face: usize) {
+        self.open[face] = f64::INFINITY;
     }
 
-    /// Of the faces not higher than `limit`, the feature whose point nearest to the origin is nearest to `exit`: where the
+    /// Largest distance of a vertex from the origin [m].
+    pub(crate) fn scale(&self) -> f64 {
+        self.vertices[..self.vertex_count]
+            .iter()
+            .fold(0.0, |largest: f64, vertex| {
+                largest.max(vertex.point.length_squared())
+            })
+            .sqrt()
+    }
+
+    /// Whether every face has the origin strictly below its plane.
+    pub(crate) fn encloses_origin(&self) -> bool {
+        (0..self.face_end).all(|slot| !self.faces[slot].live || self.is_below(slot))
+    }
+
+    fn is_below(&self, slot: usize) -> bool {
+        self.heights[slot] > 0.0 && self.heights[slot] < f64::INFINITY
+    }
+
+    /// Of the faces not higher than `limit`, the feature nearest to `exit`, with the weights of its point there: where the
     /// way out meets the surface, also when coplanar triangles or opposite sides are equally near.
     pub(crate) fn feature_at(&self, exit: DVec3, limit: f64) -> Simplex {
         let mut best = (f64::INFINITY, Simplex::EMPTY);
-        for face in &self.faces[..usize::from(self.face_end)] {
-            if face.status == Status::Free || face.height > limit {
+        for (slot, face) in self.faces[..self.face_end].iter().enumerate() {
+            if !face.live || self.heights[slot] > limit {
                 continue;
             }
-            let corners = face
-                .corners
-                .map(|corner| self.vertices[usize::from(corner)]);
-            let mut simplex = Simplex::triangle(corners, [0.0; 3]);
-            if let Some(nearest) = simplex.reduce() {
-                let miss = (nearest.normal * nearest.distance).distance(exit);
-                if miss < best.0 {
-                    best = (miss, simplex);
+            let corners = face.corners.map(|corner| {
+                let vertex = self.vertices[usize::from(corner)];
+                DifferencePoint {
+                    point: vertex.point - exit,
+                    ..vertex
                 }
+            });
+            let mut simplex = Simplex::triangle(corners);
+            if let Some(nearest) = simplex.reduce()
+                && nearest.distance < best.0
+            {
+                best = (nearest.distance, simplex);
             }
         }
         if best.1.vertices().is_empty() {
@@ -163,62 +259,53 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
 
     /// Replaces all faces that `vertex` sees by the cone from it to their horizon. A face is seen from more than
     /// `tolerance` [m] above its plane; `seen` always is.
-    pub(crate) fn grow(&mut self, seen: u16, vertex: DifferencePoint, tolerance: f64) -> Growth {
-        let mut horizon = [HorizonEdge::NONE; FACES];
-        let mut visible = [0_u16; FACES];
-        let (edges, removed) =
-            self.flood(seen, vertex.point, tolerance, &mut visible, &mut horizon);
-        let horizon = &horizon[..edges];
-        let visible = &visible[..removed];
-        let full = usize::from(self.vertex_count) >= VERTICES
-            || usize::from(self.face_count) - removed + edges > FACES;
-        let mut leaving = [NONE; VERTICES];
-        if full || !is_union_of_loops(horizon, &mut leaving) {
-            for &face in visible {
+    pub(crate) fn grow(&mut self, seen: usize, vertex: DifferencePoint, tolerance: f64) -> Growth {
+        let removed = self.flood(seen, vertex.point, tolerance);
+        let edges = self.trace_horizon(removed);
+        let full = self.vertex_count >= VERTICES || self.face_count - removed + edges > FACES;
+        if full || !self.is_union_of_loops(edges) {
+            for &face in &self.visible[..removed] {
                 self.faces[usize::from(face)].visible = false;
             }
             return if full { Growth::NoRoom } else { Growth::Torn };
         }
-        for &face in visible {
+        for &face in &self.visible[..removed] {
             self.faces[usize::from(face)] = Face::FREE;
+            self.open[usize::from(face)] = f64::INFINITY;
         }
-        let apex = self.vertex_count;
-        self.vertices[usize::from(apex)] = vertex;
+        self.vertices[self.vertex_count] = vertex;
         self.vertex_count += 1;
-        self.face_count = self.face_count + narrow(edges) - narrow(removed);
-        self.raise_cone(apex, horizon, visible, &mut leaving);
+        self.face_count = self.face_count + edges - removed;
+        self.raise_cone(edges, removed);
         Growth::Grown
     }
 
-    /// Marks what `point` sees, starting at `seen`; returns the numbers of horizon edges and of visible faces.
-    fn flood(
-        &mut self,
-        seen: u16,
-        point: DVec3,
-        tolerance: f64,
-        visible: &mut [u16; FACES],
-        horizon: &mut [HorizonEdge; FACES],
-    ) -> (usize, usize) {
-        visible[0] = seen;
-        self.faces[usize::from(seen)].visible = true;
-        let (mut edges, mut removed, mut next) = (0, 1, 0);
+    /// Marks what `point` sees, starting at `seen`; returns how many faces.
+    fn flood(&mut self, seen: usize, point: DVec3, tolerance: f64) -> usize {
+        self.visible[0] = narrow(seen);
+        self.faces[seen].visible = true;
+        let (mut removed, mut next) = (1, 0);
         while next < removed {
-            let index = visible[next];
-            let face = self.faces[usize::from(index)];
+            let across = self.faces[usize::from(self.visible[next])].across;
             next += 1;
-            for k in 0..3 {
-                let beyond = &mut self.faces[usize::from(face.across[k])];
-                if beyond.visible {
-                    continue;
-                }
-                if beyond.normal.dot(point) - beyond.height > tolerance {
-                    beyond.visible = true;
-                    visible[removed] = face.across[k];
+            for slot in across {
+                let beyond = usize::from(slot);
+                if !self.faces[beyond].visible
+                    && self.normals[beyond].dot(point) - self.heights[beyond] > tolerance
+                {
+                    self.faces[beyond].visible = true;
+                    self.visible[removed] = slot;
                     removed += 1;
                 }
             }
         }
-        for &index in &visible[..removed] {
+        removed
+    }
+
+    /// Lists the edges around the visible faces; returns how many. More than the buffer holds are not listed.
+    fn trace_horizon(&mut self, removed: usize) -> usize {
+        let mut edges = 0;
+        for &index in &self.visible[..removed] {
             let face = self.faces[usize::from(index)];
             for k in 0..3 {
                 let beyond = self.faces[usize::from(face.across[k])];
@@ -227,109 +314,104 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
                 }
                 let to = face.corners[(k + 1) % 3];
                 let edge_of_beyond = beyond.corners.iter().position(|&corner| corner == to);
-                horizon[edges] = HorizonEdge {
+                self.horizon[edges] = HorizonEdge {
                     from: face.corners[k],
                     to,
                     beyond: face.across[k],
                     edge_of_beyond: edge_of_beyond.map_or(0, narrow),
+                    slot: NONE,
                 };
                 edges += 1;
             }
         }
-        (edges, removed)
+        edges
     }
 
-    /// One new face per horizon edge, in the slots that became free first.
-    fn raise_cone(
-        &mut self,
-        apex: u16,
-        horizon: &[HorizonEdge],
-        freed: &[u16],
-        leaving: &mut [u16; VERTICES],
-    ) {
-        let mut slots = [NONE; FACES];
-        for (number, edge) in horizon.iter().enumerate() {
-            let slot = if number < freed.len() {
-                freed[number]
+    /// Every vertex on the horizon is left by exactly one edge and reached by one.
+    fn is_union_of_loops(&mut self, edges: usize) -> bool {
+        let horizon = &self.horizon[..edges];
+        let mut whole = edges >= 3;
+        for edge in horizon {
+            let slot = &mut self.leaving[usize::from(edge.from)];
+            whole &= *slot == NONE;
+            *slot = 0;
+        }
+        whole &= horizon
+            .iter()
+            .all(|edge| self.leaving[usize::from(edge.to)] != NONE);
+        for edge in horizon {
+            self.leaving[usize::from(edge.from)] = NONE;
+        }
+        whole
+    }
+
+    /// One new face per horizon edge up to the newest vertex, in the slots that became free first.
+    fn raise_cone(&mut self, edges: usize, removed: usize) {
+        let apex = narrow(self.vertex_count - 1);
+        for number in 0..edges {
+            let slot = if number < removed {
+                self.visible[number]
             } else {
                 self.untouched_slot()
             };
-            slots[number] = slot;
-            leaving[usize::from(edge.from)] = slot;
+            self.horizon[number].slot = slot;
+            self.leaving[usize::from(self.horizon[number].from)] = slot;
+            self.faces[usize::from(slot)].live = true;
         }
-        let mut arriving = [NONE; VERTICES];
-        for (number, edge) in horizon.iter().enumerate() {
-            arriving[usize::from(edge.to)] = slots[number];
-        }
-        for (number, edge) in horizon.iter().enumerate() {
-            let following = leaving[usize::from(edge.to)];
-            let preceding = arriving[usize::from(edge.from)];
+        for number in 0..edges {
+            let edge = self.horizon[number];
+            let following = self.leaving[usize::from(edge.to)];
             self.faces[usize::from(edge.beyond)].across[usize::from(edge.edge_of_beyond)] =
-                slots[number];
+                edge.slot;
+            // The neighbour across the edge from the apex is told by the face before, below.
+            let own = usize::from(edge.slot);
             self.set_face(
-                slots[number],
+                own,
                 [edge.from, edge.to, apex],
-                [edge.beyond, following, preceding],
+                [edge.beyond, following, NONE],
             );
+        }
+        for number in 0..edges {
+            let edge = self.horizon[number];
+            let following = usize::from(self.leaving[usize::from(edge.to)]);
+            self.faces[following].across[2] = edge.slot;
+        }
+        for number in 0..edges {
+            self.leaving[usize::from(self.horizon[number].from)] = NONE;
         }
     }
 
     /// A free slot of the face buffer; the caller has counted them.
     fn untouched_slot(&mut self) -> u16 {
-        let end = usize::from(self.face_end);
-        if end < FACES {
+        if self.face_end < FACES {
             self.face_end += 1;
-            // Claimed at once, so that the next call sees it taken.
-            self.faces[end].status = Status::Closed;
-            return narrow(end);
+            return narrow(self.face_end - 1);
         }
-        let free = self
-            .faces
-            .iter()
-            .position(|face| face.status == Status::Free)
-            .unwrap_or(0);
-        self.faces[free].status = Status::Closed;
-        narrow(free)
+        let free = self.faces.iter().position(|face| !face.live);
+        narrow(free.unwrap_or(0))
     }
 
-    fn set_face(&mut self, slot: u16, corners: [u16; 3], across: [u16; 3]) {
+    fn set_face(&mut self, slot: usize, corners: [u16; 3], across: [u16; 3]) {
         let [p, q, r] = corners.map(|corner| self.vertices[usize::from(corner)].point);
         let cross = (q - p).cross(r - p);
-        let length = cross.length();
+        let length_squared = cross.length_squared();
         // A face without area belongs to the surface but has no plane to grow along.
-        let (normal, height, status) = if length > 0.0 {
-            let normal = cross / length;
-            (normal, normal.dot(p), Status::Open)
+        let (normal, height) = if length_squared > 0.0 {
+            let normal = cross / length_squared.sqrt();
+            (normal, normal.dot(p))
         } else {
-            (DVec3::ZERO, f64::INFINITY, Status::Closed)
+            (DVec3::ZERO, f64::INFINITY)
         };
-        self.faces[usize::from(slot)] = Face {
-            normal,
-            height,
+        self.normals[slot] = normal;
+        self.heights[slot] = height;
+        self.open[slot] = height;
+        self.faces[slot] = Face {
             corners,
             across,
-            status,
+            live: true,
             visible: false,
         };
     }
-}
-
-/// Every vertex on the horizon is left by exactly one edge. `leaving` is scratch and comes back marked.
-fn is_union_of_loops<const VERTICES: usize>(
-    horizon: &[HorizonEdge],
-    leaving: &mut [u16; VERTICES],
-) -> bool {
-    for edge in horizon {
-        let slot = &mut leaving[usize::from(edge.from)];
-        if *slot != NONE {
-            return false;
-        }
-        *slot = 0;
-    }
-    horizon.len() >= 3
-        && horizon
-            .iter()
-            .all(|edge| leaving[usize::from(edge.to)] != NONE)
 }
 
 #[expect(
