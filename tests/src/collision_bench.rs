@@ -2,6 +2,7 @@
 
 pub mod clock;
 pub mod duel;
+pub mod mesh;
 pub mod placements;
 pub mod report;
 pub mod rows;
