@@ -2,11 +2,13 @@
 
 use glam::DVec3;
 use pliant_collision::{
-    SimplexCache, TriangleBvh, cast_ray, cast_shape, closest_points, distance, overlap,
+    MeshCache, ObjectBvh, PointSet, SimplexCache, TriangleBvh, cast_ray, cast_shape,
+    closest_points, distance, overlap,
 };
 use pliant_mesh::{Aabb, generate};
+use pliant_spatial::Pose;
 use pliant_tests::collision::families::{Family, Pair};
-use pliant_tests::collision::kinds::Kind;
+use pliant_tests::collision::kinds::{Kind, prism};
 
 use crate::allocations;
 
@@ -80,4 +82,55 @@ fn no_query_of_the_mesh_hierarchy_allocates() {
     }
     assert_eq!(allocations() - before, 0);
     assert!(met > 1000 && hits == 2000, "{met} met, {hits} hits");
+}
+
+/// After one round along a path the buffers are as large as the path needs.
+#[test]
+fn no_shape_query_of_the_mesh_hierarchy_allocates_after_a_round() {
+    let radii = DVec3::new(0.06, 0.05, 0.04);
+    let mesh = generate::latitude_longitude_ellipsoid(radii, 96, 67).expect("enough sectors");
+    let mut bvh = TriangleBvh::new(&mesh);
+    let tool: Vec<DVec3> = prism(0.6).iter().map(|&corner| corner * 0.03).collect();
+    let path = |step: u32| {
+        let angle = f64::from(step) * 0.01;
+        let place = DVec3::new(0.062 * angle.cos(), 0.052 * angle.sin(), 0.003);
+        Pose::new(glam::DQuat::from_rotation_x(0.1 * angle), place)
+    };
+    let mut cache = MeshCache::default();
+    let mut found = 0;
+    let mut round = |bvh: &TriangleBvh| {
+        for step in 0..629 {
+            let (pose, tool) = (path(step), PointSet(&tool));
+            found += bvh.contacts(&mesh, &tool, &pose, 1e-3, &mut cache).len();
+            found += bvh
+                .every_contact(&mesh, &tool, &pose, 0.0, &mut cache)
+                .len();
+            let deepest = bvh.deepest(&mesh, &tool, &pose, 0.1, &mut cache);
+            found += usize::from(deepest.is_some());
+            let hit = bvh.cast_shape(&mesh, &tool, &pose, -pose.translation);
+            found += usize::from(hit.is_some());
+        }
+    };
+    round(&bvh);
+    let before = allocations();
+    round(&bvh);
+    assert_eq!(allocations() - before, 0);
+    assert!(found > 2000, "{found}");
+    let before = allocations();
+    bvh.refit(&mesh);
+    assert_eq!(allocations() - before, 0);
+}
+
+#[test]
+fn no_query_of_the_object_hierarchy_allocates() {
+    let box_at = |x: f64| Aabb::from_points(&[DVec3::X * x]).inflated(0.6);
+    let boxes: Vec<Aabb> = (0..100).map(|i| box_at(f64::from(i))).collect();
+    let mut bvh = ObjectBvh::new(&boxes);
+    let before = allocations();
+    let mut met = 0;
+    bvh.overlapping(&box_at(10.0), |_| met += 1);
+    bvh.pairs(&boxes, |_, _| met += 1);
+    bvh.refit(&boxes);
+    assert_eq!(allocations() - before, 0);
+    assert!(met > 99, "{met}");
 }
