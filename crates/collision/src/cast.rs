@@ -103,6 +103,11 @@ where
         }
         let pose = at(next);
         let Some(closest) = distance(a, b, &pose, cache) else {
+            // Touching to rounding. Round surfaces turn under the last step and their cores tell by how much; between flat
+            // ones the last plane is the one that is met.
+            if a.radius() + b.radius() > 0.0 {
+                last = closest_points(a, b, &pose, cache);
+            }
             return Some(hit(next, &last));
         };
         let scale = closest.witness_a.abs().max_element()

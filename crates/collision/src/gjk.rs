@@ -11,6 +11,7 @@ use glam::DVec3;
 use pliant_spatial::Pose;
 
 use crate::epa::{self, Surface};
+use crate::segments::Segments;
 use crate::simplex::{NOISE, Nearest, Simplex};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
@@ -90,6 +91,9 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
+    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
+        return between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
+    }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     if !cache.surface.is_empty()
         && let Some(plane) = epa::shallowest_from(&mut cache.surface, &difference)
@@ -123,6 +127,10 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
+    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
+        let closest = between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
+        return (closest.separation > 0.0).then_some(closest);
+    }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     match search(&difference, cache, Goal::Distance) {
         Exit::Apart(plane) => {
@@ -143,8 +151,11 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let difference = MinkowskiDifference::new(a, b, a_from_b);
     let radii = a.radius() + b.radius();
+    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
+        return between_segments(of_a, of_b, a_from_b, [radii, 0.0]).separation <= 0.0;
+    }
+    let difference = MinkowskiDifference::new(a, b, a_from_b);
     match search(&difference, cache, Goal::Above(radii)) {
         Exit::Apart(plane) => {
             cache.remember(&plane.simplex);
@@ -154,6 +165,31 @@ where
             cache.remember(&simplex);
             true
         }
+    }
+}
+
+/// Closed form for capsules, spheres and what is thinner.
+fn between_segments(
+    [a0, a1]: [DVec3; 2],
+    [b0, b1]: [DVec3; 2],
+    a_from_b: &Pose,
+    [radius_a, radius_b]: [f64; 2],
+) -> ClosestPoints {
+    let middle = a0.midpoint(a1);
+    let segments = Segments {
+        half_a: (a1 - a0) * 0.5,
+        half_b: a_from_b.rotation * ((b1 - b0) * 0.5),
+        offset: a_from_b.rotation * b0.midpoint(b1) + (a_from_b.translation - middle),
+    };
+    let found = segments.nearest();
+    let core_a = middle + segments.half_a * found.on_a;
+    let separation = found.separation - (radius_a + radius_b);
+    let witness_a = core_a + found.normal * radius_a;
+    ClosestPoints {
+        witness_a,
+        witness_b: witness_a + found.normal * separation,
+        normal: found.normal,
+        separation,
     }
 }
 

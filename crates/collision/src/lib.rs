@@ -16,6 +16,7 @@ mod climb;
 mod epa;
 mod gjk;
 mod mesh_query;
+mod segments;
 mod shapes;
 mod simplex;
 mod support;

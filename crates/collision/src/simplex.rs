@@ -139,11 +139,12 @@ impl Simplex {
     }
 
     fn on_triangle(&self, i: usize, j: usize, k: usize) -> Candidate {
+        let [i, j, k] = self.base_first([i, j, k]);
         let [p, q, r] = [i, j, k].map(|corner| self.vertices[corner].point);
         let (pq, pr) = (q - p, r - p);
         let cross = pq.cross(pr);
         let area_squared = cross.length_squared();
-        let longest = pq.length_squared().max(pr.length_squared());
+        let longest = (r - q).length_squared();
         let size = p.length_squared().max(longest);
         if area_squared <= NOISE * NOISE * size * longest {
             return self.nearest_edge([i, j, k], [true; 3]);
@@ -155,7 +156,9 @@ impl Simplex {
         let weight_q = foot.cross(pr).dot(cross) / area_squared;
         let weight_r = pq.cross(foot).dot(cross) / area_squared;
         let weight_p = 1.0 - weight_q - weight_r;
-        if weight_p > 0.0 && weight_q > 0.0 && weight_r > 0.0 {
+        // A foot on an edge to rounding belongs to the face: its normal stays exact at any height, the edge's does not.
+        let slack = -NOISE * longest / area_squared.sqrt();
+        if weight_p > slack && weight_q > slack && weight_r > slack {
             return Candidate {
                 nearest: Nearest {
                     normal: if height < 0.0 { -normal } else { normal },
@@ -170,6 +173,23 @@ impl Simplex {
             [i, j, k],
             [weight_p <= 0.0, weight_q <= 0.0, weight_r <= 0.0],
         )
+    }
+
+    /// The corners in the same order from the one opposite the longest edge on, where a needle's length spoils least.
+    fn base_first(&self, [i, j, k]: [usize; 3]) -> [usize; 3] {
+        let [p, q, r] = [i, j, k].map(|corner| self.vertices[corner].point);
+        let (of_pq, of_qr, of_rp) = (
+            p.distance_squared(q),
+            q.distance_squared(r),
+            r.distance_squared(p),
+        );
+        if of_qr >= of_pq && of_qr >= of_rp {
+            [i, j, k]
+        } else if of_rp >= of_pq {
+            [j, k, i]
+        } else {
+            [k, i, j]
+        }
     }
 
     /// Nearest of the triangle's edges that lie opposite a corner marked in `beyond`.
@@ -212,6 +232,24 @@ impl Nearest {
             DVec3::ZERO
         };
         Self { normal, distance }
+    }
+}
+
+/// The corner opposite the longest edge, and the cross product of the two edges at it (in the order of the corners): of the
+/// three ways to take it the one that a needle's length does not spoil.
+pub(crate) fn base_and_cross([p, q, r]: [DVec3; 3]) -> (DVec3, DVec3) {
+    let (pq, qr, rp) = (q - p, r - q, p - r);
+    let (of_pq, of_qr, of_rp) = (
+        pq.length_squared(),
+        qr.length_squared(),
+        rp.length_squared(),
+    );
+    if of_qr >= of_pq && of_qr >= of_rp {
+        (p, rp.cross(pq))
+    } else if of_rp >= of_pq {
+        (q, pq.cross(qr))
+    } else {
+        (r, qr.cross(rp))
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::epa::surface::Surface;
-use crate::simplex::Simplex;
+use crate::simplex::{Simplex, base_and_cross};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 /// What became of an attempt to add a vertex.
@@ -144,21 +144,16 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         let mut number = [u8::MAX; VERTICES];
         let mut renamed = [u8::MAX; FACES];
         let mut count = 0;
-        for slot in 0..self.face_end {
-            if !self.faces[slot].live {
-                continue;
+        for (slot, name) in renamed[..self.face_end].iter_mut().enumerate() {
+            if self.faces[slot].live {
+                if !self.is_below(slot) || count == u8::MAX {
+                    return;
+                }
+                *name = count;
+                count += 1;
             }
-            if !self.is_below(slot) || count == u8::MAX {
-                return;
-            }
-            renamed[slot] = count;
-            count += 1;
         }
-        for slot in 0..self.face_end {
-            let face = self.faces[slot];
-            if !face.live {
-                continue;
-            }
+        for face in self.faces[..self.face_end].iter().filter(|face| face.live) {
             for corner in face.corners.map(usize::from) {
                 if number[corner] == u8::MAX {
                     let vertex = &self.vertices[corner];
@@ -392,13 +387,13 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
     }
 
     fn set_face(&mut self, slot: usize, corners: [u16; 3], across: [u16; 3]) {
-        let [p, q, r] = corners.map(|corner| self.vertices[usize::from(corner)].point);
-        let cross = (q - p).cross(r - p);
+        let points = corners.map(|corner| self.vertices[usize::from(corner)].point);
+        let (base, cross) = base_and_cross(points);
         let length_squared = cross.length_squared();
         // A face without area belongs to the surface but has no plane to grow along.
         let (normal, height) = if length_squared > 0.0 {
             let normal = cross / length_squared.sqrt();
-            (normal, normal.dot(p))
+            (normal, normal.dot(base))
         } else {
             (DVec3::ZERO, f64::INFINITY)
         };
