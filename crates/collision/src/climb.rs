@@ -4,33 +4,44 @@
 use glam::DVec3;
 use pliant_mesh::{ConvexMesh, FaceId};
 
-use crate::shapes::{numbered, scan};
+use crate::shapes::scan;
 use crate::support::{SupportMap, SupportPoint};
 
 /// Up to this many vertices a scan of all of them is no slower than a cold climb (measured: they cross near 32).
 const SCAN_LIMIT: usize = 32;
 
+/// Steps after which the table of directions is asked: coherent queries take one or two.
+const PATIENCE: u32 = 2;
+
 impl SupportMap for ConvexMesh {
     /// Climbs along the edges from `start`, always to the highest neighbour; strict ascent ends on any mesh, and on a
-    /// convex one a vertex without a higher neighbour is the highest of all.
+    /// convex one a vertex without a higher neighbour is the highest of all. A long way is cut short by the mesh's table of
+    /// directions.
     fn support(&self, direction: DVec3, start: u32) -> SupportPoint {
         let positions = self.positions();
         if positions.len() <= SCAN_LIMIT {
             return scan(positions, direction);
         }
-        let mut index = (start as usize).min(positions.len() - 1);
-        let mut height = positions[index].dot(direction);
-        loop {
+        let mut index = if (start as usize) < positions.len() {
+            start
+        } else {
+            self.vertex_towards(direction)
+        };
+        let mut height = positions[index as usize].dot(direction);
+        for step in 0_u32.. {
+            if step == PATIENCE {
+                let other = self.vertex_towards(direction);
+                let of_other = positions[other as usize].dot(direction);
+                if of_other > height {
+                    (index, height) = (other, of_other);
+                }
+            }
             let mut next = index;
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "vertices are numbered by u32 throughout"
-            )]
-            for &neighbour in self.neighbours(index as u32) {
+            for &neighbour in self.neighbours(index) {
                 let candidate = positions[neighbour as usize].dot(direction);
                 if candidate > height {
                     height = candidate;
-                    next = neighbour as usize;
+                    next = neighbour;
                 }
             }
             if next == index {
@@ -38,7 +49,10 @@ impl SupportMap for ConvexMesh {
             }
             index = next;
         }
-        numbered(index, positions[index])
+        SupportPoint {
+            index,
+            point: positions[index as usize],
+        }
     }
 
     fn vertex(&self, index: u32) -> DVec3 {

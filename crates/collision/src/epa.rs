@@ -16,7 +16,7 @@
 use glam::DVec3;
 
 use crate::gjk::{GAP_TOLERANCE, Plane};
-use crate::simplex::{NOISE, Simplex};
+use crate::simplex::{NOISE, Simplex, cross_of, plane_of};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 mod polytope;
@@ -26,6 +26,7 @@ mod surface;
 use polytope::{Growth, Polytope};
 use seed::Seed;
 pub(crate) use surface::Surface;
+use surface::{MOST_FACES, MOST_VERTICES};
 
 /// A gap at which a repeated support point is rounding and not a dent in a recalled surface, times the largest coordinate.
 const DENT: f64 = 1e-12;
@@ -43,6 +44,8 @@ struct Expansion {
 
 /// The supporting plane of the difference nearest to the origin, which GJK found inside or on it. `surface` becomes the
 /// start for a placement nearby. Allocates nothing.
+// Kept out of the callers: its buffers would enlarge the stack frame of every query that stays apart.
+#[inline(never)]
 pub(crate) fn shallowest<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     simplex: &Simplex,
@@ -58,19 +61,23 @@ where
         Seed::Flat(normal) => return flat(difference, simplex, normal),
     };
     // Nearly every query ends in the small buffers; clearing the large ones costs microseconds.
-    let mut polytope = Polytope::<48, 96>::new(&tetrahedron);
+    let mut polytope = Polytope::<48, 96>::empty();
+    polytope.start(&tetrahedron);
     let small = expand(difference, &mut polytope);
     if !small.full {
         polytope.remember(surface);
         return small.plane;
     }
-    expand(difference, &mut Polytope::<1024, 2048>::new(&tetrahedron)).plane
+    let mut polytope = Polytope::<1024, 2048>::empty();
+    polytope.start(&tetrahedron);
+    expand(difference, &mut polytope).plane
 }
 
 /// The same, started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in
 /// addition the origin lies below all its faces, then it lies inside, and no face of the difference is nearer than the
 /// nearest of these: between any of them and the origin there are only convex combinations of points of the difference.
 /// The surface need not be convex for that. `None`: it does not enclose the origin any more.
+#[inline(never)]
 pub(crate) fn shallowest_from<A, B>(
     surface: &mut Surface,
     difference: &MinkowskiDifference<'_, A, B>,
@@ -79,7 +86,30 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let mut polytope = Polytope::<32, 64>::recall(surface, difference)?;
+    let mut placed = [DifferencePoint::NONE; MOST_VERTICES];
+    for (vertex, &[a, b]) in placed.iter_mut().zip(surface.vertices()) {
+        *vertex = difference.vertex(a, b);
+    }
+    let placed = &placed[..surface.vertices().len()];
+    if let Some(plane) = unchanged(surface, difference, placed)? {
+        return Some(plane);
+    }
+    regrown(surface, difference, placed)
+}
+
+/// Grows a recalled surface until its lowest face supports the difference.
+#[inline(never)]
+fn regrown<A, B>(
+    surface: &mut Surface,
+    difference: &MinkowskiDifference<'_, A, B>,
+    placed: &[DifferencePoint],
+) -> Option<Plane>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut polytope = Polytope::<32, 64>::empty();
+    polytope.recall(surface, placed);
     let found = expand(difference, &mut polytope);
     if found.full || found.doubtful || (found.grown && !polytope.encloses_origin()) {
         return None;
@@ -88,6 +118,88 @@ where
         polytope.remember(surface);
     }
     Some(found.plane)
+}
+
+/// Tries the lowest face of a recalled surface: `Some(None)` if the difference reaches beyond it, `None` if the surface does
+/// not enclose the origin.
+#[expect(
+    clippy::option_option,
+    reason = "the outer one is the answer to another question, and both are passed on"
+)]
+fn unchanged<A, B>(
+    surface: &Surface,
+    difference: &MinkowskiDifference<'_, A, B>,
+    placed: &[DifferencePoint],
+) -> Option<Option<Plane>>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let corners_of = |face: usize| {
+        surface.faces()[face]
+            .0
+            .map(|corner| placed[usize::from(corner)])
+    };
+    let faces = 0..surface.faces().len();
+    // Heights squared: of all faces but the lowest they are only compared.
+    let mut heights_squared = [f64::INFINITY; MOST_FACES];
+    let (mut lowest, mut least) = (0, f64::INFINITY);
+    for face in faces.clone() {
+        let (cross, base) = cross_of(corners_of(face).map(|vertex| vertex.point));
+        let volume = cross.dot(base);
+        let height_squared = volume * volume / cross.length_squared();
+        if volume <= 0.0 || height_squared.is_nan() {
+            return None;
+        }
+        heights_squared[face] = height_squared;
+        if height_squared < least {
+            (lowest, least) = (face, height_squared);
+        }
+    }
+    let (outward, height) = plane_of(corners_of(lowest).map(|vertex| vertex.point))?;
+    let scale = largest(placed);
+    let reach = outward.dot(difference.support(outward, &corners_of(lowest)[0]).point);
+    let tolerance = GAP_TOLERANCE * scale;
+    if reach - height > tolerance {
+        return Some(None);
+    }
+    let limit = reach + NOISE * scale + tolerance;
+    let near = faces
+        .filter(|&face| heights_squared[face] <= limit * limit)
+        .map(corners_of);
+    Some(Some(Plane {
+        normal: -outward,
+        separation: -reach,
+        simplex: nearest_to(outward * reach, near),
+    }))
+}
+
+/// Of some faces the feature nearest to `exit`, with the weights of its point there: where the way out meets the surface,
+/// also when coplanar triangles or opposite sides are equally near. Empty without faces.
+fn nearest_to(exit: DVec3, faces: impl Iterator<Item = [DifferencePoint; 3]>) -> Simplex {
+    let mut best = (f64::INFINITY, Simplex::EMPTY);
+    for corners in faces {
+        let mut simplex = Simplex::triangle(corners.map(|vertex| DifferencePoint {
+            point: vertex.point - exit,
+            ..vertex
+        }));
+        if let Some(nearest) = simplex.reduce()
+            && nearest.distance < best.0
+        {
+            best = (nearest.distance, simplex);
+        }
+    }
+    best.1
+}
+
+/// Largest distance of a vertex from the origin [m].
+fn largest(vertices: &[DifferencePoint]) -> f64 {
+    vertices
+        .iter()
+        .fold(0.0, |largest: f64, vertex| {
+            largest.max(vertex.point.length_squared())
+        })
+        .sqrt()
 }
 
 /// Depth of a difference without volume: nothing, along its normal.
@@ -136,7 +248,7 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let scale = polytope.scale();
+    let scale = largest(polytope.vertices());
     let tolerance = GAP_TOLERANCE * scale;
     let mut bound = f64::INFINITY;
     let mut outward = DVec3::X;

@@ -219,7 +219,7 @@ impl SimplexCache {
             } else {
                 guess
             };
-            simplex.push(difference.support(-direction, &DifferencePoint::ZERO));
+            simplex.push(difference.support(-direction, &DifferencePoint::NONE));
         }
         simplex
     }

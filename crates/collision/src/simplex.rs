@@ -14,6 +14,9 @@ use crate::support::DifferencePoint;
 /// Vectors shorter than this times the largest coordinate at hand are rounding noise: four units in the last place.
 pub(crate) const NOISE: f64 = 4.0 * f64::EPSILON;
 
+/// Two edges whose sine squared is less meet in the point of a needle.
+const NEEDLE: f64 = 1e-3;
+
 /// One to four vertices of the Minkowski difference, with the barycentric weights of the point nearest to the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Simplex {
@@ -42,7 +45,7 @@ struct Candidate {
 
 impl Simplex {
     pub(crate) const EMPTY: Self = Self {
-        vertices: [DifferencePoint::ZERO; 4],
+        vertices: [DifferencePoint::NONE; 4],
         weights: [0.0; 4],
         len: 0,
     };
@@ -60,7 +63,7 @@ impl Simplex {
     pub(crate) fn triangle(vertices: [DifferencePoint; 3]) -> Self {
         let [p, q, r] = vertices;
         Self {
-            vertices: [p, q, r, DifferencePoint::ZERO],
+            vertices: [p, q, r, DifferencePoint::NONE],
             weights: [0.0; 4],
             len: 3,
         }
@@ -235,21 +238,39 @@ impl Nearest {
     }
 }
 
-/// The corner opposite the longest edge, and the cross product of the two edges at it (in the order of the corners): of the
-/// three ways to take it the one that a needle's length does not spoil.
-pub(crate) fn base_and_cross([p, q, r]: [DVec3; 3]) -> (DVec3, DVec3) {
-    let (pq, qr, rp) = (q - p, r - q, p - r);
-    let (of_pq, of_qr, of_rp) = (
-        pq.length_squared(),
-        qr.length_squared(),
-        rp.length_squared(),
-    );
-    if of_qr >= of_pq && of_qr >= of_rp {
-        (p, rp.cross(pq))
-    } else if of_rp >= of_pq {
-        (q, pq.cross(qr))
+/// Unit normal of a triangle and its signed height over the origin; `None` without area.
+#[inline]
+pub(crate) fn plane_of(corners: [DVec3; 3]) -> Option<(DVec3, f64)> {
+    let (cross, base) = cross_of(corners);
+    let area_squared = cross.length_squared();
+    if area_squared > 0.0 {
+        let normal = cross / area_squared.sqrt();
+        Some((normal, normal.dot(base)))
     } else {
-        (r, qr.cross(rp))
+        None
+    }
+}
+
+/// Cross product of the edges at a corner of a triangle (p, q, r), along (q − p) × (r − p), and that corner.
+///
+/// Of the three ways to take it a needle needs the one at the corner opposite its longest edge: the others lose as many
+/// digits as it is long.
+#[inline]
+pub(crate) fn cross_of([p, q, r]: [DVec3; 3]) -> (DVec3, DVec3) {
+    let (pq, pr) = (q - p, r - p);
+    let cross = pq.cross(pr);
+    let (of_pq, of_pr) = (pq.length_squared(), pr.length_squared());
+    if cross.length_squared() >= NEEDLE * of_pq * of_pr {
+        return (cross, p);
+    }
+    let qr = r - q;
+    let of_qr = qr.length_squared();
+    if of_pq >= of_pr.max(of_qr) {
+        (qr.cross(-pr), r)
+    } else if of_pr >= of_qr {
+        (pq.cross(qr), q)
+    } else {
+        (cross, p)
     }
 }
 

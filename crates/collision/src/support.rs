@@ -22,7 +22,7 @@ pub struct SupportPoint {
 /// vertex, so that a cache filled by other shapes costs time and never correctness.
 pub trait SupportMap {
     /// Vertex of the core furthest along `direction` (shape's frame, any length, non-zero). `start` is the index of a
-    /// vertex to start climbing from: a hint, it never changes how far the answer reaches.
+    /// vertex to start climbing from, `u32::MAX` where none is known: a hint, it never changes how far the answer reaches.
     fn support(&self, direction: DVec3, start: u32) -> SupportPoint;
 
     /// Position of a vertex of the core in the shape's frame [m].
@@ -91,10 +91,11 @@ pub(crate) struct DifferencePoint {
 }
 
 impl DifferencePoint {
-    pub(crate) const ZERO: Self = Self {
+    /// No vertex at all: what fills buffers, and the start of a climb where nothing is known.
+    pub(crate) const NONE: Self = Self {
         point: DVec3::ZERO,
-        a: 0,
-        b: 0,
+        a: u32::MAX,
+        b: u32::MAX,
     };
 
     pub(crate) fn same_vertices(&self, other: &Self) -> bool {

@@ -1,10 +1,12 @@
 //! Convex meshes: checked once, then relied upon by every collision query.
 
 mod check;
+mod directions;
 
 use glam::DVec3;
 use thiserror::Error;
 
+use self::directions::Directions;
 use crate::digits::{number, point};
 use crate::hull::{HullError, convex_hull};
 use crate::{Aabb, EdgeId, FaceId, HalfEdgeMesh, TopologyError, TriangleMesh, VertexId};
@@ -124,6 +126,7 @@ pub struct ConvexMesh {
     topology: HalfEdgeMesh,
     neighbour_start: Vec<u32>,
     neighbour_list: Vec<u32>,
+    directions: Directions,
     centroid: DVec3,
     radius: f64,
 }
@@ -145,10 +148,19 @@ impl ConvexMesh {
             .iter()
             .map(|p| p.distance(centroid))
             .fold(0.0, f64::max);
+        let directions = Directions::new(topology.vertex_count(), |direction, from| {
+            climb(
+                topology.positions(),
+                (&neighbour_start, &neighbour_list),
+                direction,
+                from,
+            )
+        });
         Ok(Self {
             topology,
             neighbour_start,
             neighbour_list,
+            directions,
             centroid,
             radius,
         })
@@ -189,6 +201,12 @@ impl ConvexMesh {
         &self.neighbour_list[self.neighbour_start[v] as usize..self.neighbour_start[v + 1] as usize]
     }
 
+    /// A vertex near the one furthest along `direction` (any length): where to start climbing without a better guess.
+    /// Allocates nothing.
+    pub fn vertex_towards(&self, direction: DVec3) -> u32 {
+        self.directions.near(direction)
+    }
+
     /// Smallest box around the mesh [m].
     pub fn bounds(&self) -> Aabb {
         self.topology.bounds()
@@ -202,6 +220,25 @@ impl ConvexMesh {
     /// Distance from the centroid to the farthest vertex [m].
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+}
+
+/// The highest vertex along `direction`, by steps to the highest neighbour.
+fn climb(positions: &[DVec3], (start, list): (&[u32], &[u32]), direction: DVec3, from: u32) -> u32 {
+    let mut at = from as usize;
+    let mut height = positions[at].dot(direction);
+    loop {
+        let before = at;
+        for &neighbour in &list[start[before] as usize..start[before + 1] as usize] {
+            let candidate = positions[neighbour as usize].dot(direction);
+            if candidate > height {
+                height = candidate;
+                at = neighbour as usize;
+            }
+        }
+        if at == before {
+            return u32::try_from(at).expect("vertices have 32-bit indices");
+        }
     }
 }
 

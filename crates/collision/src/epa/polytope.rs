@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 
+use crate::epa::nearest_to;
 use crate::epa::surface::Surface;
-use crate::simplex::{Simplex, base_and_cross};
-use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
+use crate::simplex::{Simplex, plane_of};
+use crate::support::DifferencePoint;
 
 /// What became of an attempt to add a vertex.
 pub(crate) enum Growth {
@@ -79,9 +80,10 @@ pub(crate) struct Polytope<const VERTICES: usize, const FACES: usize> {
 }
 
 impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
-    fn empty() -> Self {
+    /// No faces yet; [`Polytope::start`] or [`Polytope::recall`] comes next. Filled in place: it is several KiB large.
+    pub(crate) fn empty() -> Self {
         Self {
-            vertices: [DifferencePoint::ZERO; VERTICES],
+            vertices: [DifferencePoint::NONE; VERTICES],
             vertex_count: 0,
             faces: [Face::FREE; FACES],
             normals: [DVec3::ZERO; FACES],
@@ -95,47 +97,32 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         }
     }
 
-    pub(crate) fn new(tetrahedron: &[DifferencePoint; 4]) -> Self {
-        let mut polytope = Self::empty();
+    /// The surface of a tetrahedron with volume.
+    pub(crate) fn start(&mut self, tetrahedron: &[DifferencePoint; 4]) {
         let mut corners = *tetrahedron;
         let [p, q, r, s] = tetrahedron.map(|vertex| vertex.point);
         if (q - p).cross(r - p).dot(s - p) > 0.0 {
             corners.swap(1, 2);
         }
-        polytope.vertices[..4].copy_from_slice(&corners);
-        polytope.vertex_count = 4;
-        polytope.face_end = 4;
-        polytope.face_count = 4;
-        polytope.set_face(0, [0, 1, 2], [3, 2, 1]);
-        polytope.set_face(1, [0, 2, 3], [0, 2, 3]);
-        polytope.set_face(2, [2, 1, 3], [0, 3, 1]);
-        polytope.set_face(3, [1, 0, 3], [0, 1, 2]);
-        polytope
+        self.vertices[..4].copy_from_slice(&corners);
+        self.vertex_count = 4;
+        self.face_end = 4;
+        self.face_count = 4;
+        self.set_face(0, [0, 1, 2], [3, 2, 1]);
+        self.set_face(1, [0, 2, 3], [0, 2, 3]);
+        self.set_face(2, [2, 1, 3], [0, 3, 1]);
+        self.set_face(3, [1, 0, 3], [0, 1, 2]);
     }
 
-    /// A surface of an earlier placement at the present one. `None` unless it fits and every face has the origin below it.
-    pub(crate) fn recall<A, B>(
-        surface: &Surface,
-        difference: &MinkowskiDifference<'_, A, B>,
-    ) -> Option<Self>
-    where
-        A: SupportMap + ?Sized,
-        B: SupportMap + ?Sized,
-    {
-        let mut polytope = Self::empty();
-        for (vertex, &[a, b]) in polytope.vertices.iter_mut().zip(surface.vertices()) {
-            *vertex = difference.vertex(a, b);
-        }
-        polytope.vertex_count = surface.vertices().len();
-        polytope.face_count = surface.faces().len();
-        polytope.face_end = polytope.face_count;
+    /// A surface of an earlier placement, its vertices at the present one.
+    pub(crate) fn recall(&mut self, surface: &Surface, vertices: &[DifferencePoint]) {
+        self.vertices[..vertices.len()].copy_from_slice(vertices);
+        self.vertex_count = vertices.len();
+        self.face_count = surface.faces().len();
+        self.face_end = self.face_count;
         for (slot, &(corners, across)) in surface.faces().iter().enumerate() {
-            polytope.set_face(slot, corners.map(u16::from), across.map(u16::from));
-            if !polytope.is_below(slot) {
-                return None;
-            }
+            self.set_face(slot, corners.map(u16::from), across.map(u16::from));
         }
-        Some(polytope)
     }
 
     /// What a later query may start from; nothing where it is too large or the origin not below every face.
@@ -204,14 +191,8 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         self.open[face] = f64::INFINITY;
     }
 
-    /// Largest distance of a vertex from the origin [m].
-    pub(crate) fn scale(&self) -> f64 {
-        self.vertices[..self.vertex_count]
-            .iter()
-            .fold(0.0, |largest: f64, vertex| {
-                largest.max(vertex.point.length_squared())
-            })
-            .sqrt()
+    pub(crate) fn vertices(&self) -> &[DifferencePoint] {
+        &self.vertices[..self.vertex_count]
     }
 
     /// Whether every face has the origin strictly below its plane.
@@ -223,33 +204,21 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         self.heights[slot] > 0.0 && self.heights[slot] < f64::INFINITY
     }
 
-    /// Of the faces not higher than `limit`, the feature nearest to `exit`, with the weights of its point there: where the
-    /// way out meets the surface, also when coplanar triangles or opposite sides are equally near.
+    /// Where the way out at `exit` meets the surface, among faces not higher than `limit`.
     pub(crate) fn feature_at(&self, exit: DVec3, limit: f64) -> Simplex {
-        let mut best = (f64::INFINITY, Simplex::EMPTY);
-        for (slot, face) in self.faces[..self.face_end].iter().enumerate() {
-            if !face.live || self.heights[slot] > limit {
-                continue;
-            }
-            let corners = face.corners.map(|corner| {
-                let vertex = self.vertices[usize::from(corner)];
-                DifferencePoint {
-                    point: vertex.point - exit,
-                    ..vertex
-                }
+        let faces = self.faces[..self.face_end].iter().zip(&self.heights);
+        let near = faces
+            .filter(|(face, height)| face.live && **height <= limit)
+            .map(|(face, _)| {
+                face.corners
+                    .map(|corner| self.vertices[usize::from(corner)])
             });
-            let mut simplex = Simplex::triangle(corners);
-            if let Some(nearest) = simplex.reduce()
-                && nearest.distance < best.0
-            {
-                best = (nearest.distance, simplex);
-            }
+        let mut simplex = nearest_to(exit, near);
+        if simplex.vertices().is_empty() {
+            simplex.push(self.vertices[0]);
+            simplex.reduce();
         }
-        if best.1.vertices().is_empty() {
-            best.1.push(self.vertices[0]);
-            best.1.reduce();
-        }
-        best.1
+        simplex
     }
 
     /// Replaces all faces that `vertex` sees by the cone from it to their horizon. A face is seen from more than
@@ -388,15 +357,8 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
 
     fn set_face(&mut self, slot: usize, corners: [u16; 3], across: [u16; 3]) {
         let points = corners.map(|corner| self.vertices[usize::from(corner)].point);
-        let (base, cross) = base_and_cross(points);
-        let length_squared = cross.length_squared();
         // A face without area belongs to the surface but has no plane to grow along.
-        let (normal, height) = if length_squared > 0.0 {
-            let normal = cross / length_squared.sqrt();
-            (normal, normal.dot(base))
-        } else {
-            (DVec3::ZERO, f64::INFINITY)
-        };
+        let (normal, height) = plane_of(points).unwrap_or((DVec3::ZERO, f64::INFINITY));
         self.normals[slot] = normal;
         self.heights[slot] = height;
         self.open[slot] = height;

@@ -1,8 +1,8 @@
 //! The surface that EPA ended with, as vertex indices: what warm starts it.
 
 /// Vertices and faces kept; larger surfaces are not, they would cost more to place anew than to find again.
-const MOST_VERTICES: usize = 24;
-const MOST_FACES: usize = 2 * MOST_VERTICES - 4;
+pub(super) const MOST_VERTICES: usize = 24;
+pub(super) const MOST_FACES: usize = 2 * MOST_VERTICES - 4;
 
 /// A closed surface of triangles between vertices of a Minkowski difference. No heap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
