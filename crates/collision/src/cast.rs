@@ -69,7 +69,7 @@ where
 }
 
 /// First contact of B, moving by `motion_of_b_in_a` [m] without turning, with A at rest. `None` if they stay apart.
-/// Shapes that touch or overlap at the start meet at fraction 0. Allocates nothing.
+/// Shapes that touch or overlap at the start meet at fraction 0. Allocates nothing (collision.10).
 pub fn cast_shape<A, B>(
     a: &A,
     b: &B,

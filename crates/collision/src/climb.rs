@@ -1,5 +1,5 @@
 //! Support mapping of a convex mesh by hill climbing over its edges: in coherent queries the answer is the start or a
-//! neighbour of it, whatever the number of faces.
+//! neighbour of it, whatever the number of faces (collision.9).
 
 use glam::DVec3;
 use pliant_mesh::{ConvexMesh, FaceId};

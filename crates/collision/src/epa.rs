@@ -76,7 +76,7 @@ where
 /// The same, started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in
 /// addition the origin lies below all its faces, then it lies inside, and no face of the difference is nearer than the
 /// nearest of these: between any of them and the origin there are only convex combinations of points of the difference.
-/// The surface need not be convex for that. `None`: it does not enclose the origin any more.
+/// The surface need not be convex for that (collision.7). `None`: it does not enclose the origin any more.
 #[inline(never)]
 pub(crate) fn shallowest_from<A, B>(
     surface: &mut Surface,
@@ -170,13 +170,14 @@ where
     Some(Some(Plane {
         normal: -outward,
         separation: -reach,
-        simplex: nearest_to(outward * reach, near),
+        simplex: nearest_to(outward * reach, near).1,
     }))
 }
 
 /// Of some faces the feature nearest to `exit`, with the weights of its point there: where the way out meets the surface,
-/// also when coplanar triangles or opposite sides are equally near. Empty without faces.
-fn nearest_to(exit: DVec3, faces: impl Iterator<Item = [DifferencePoint; 3]>) -> Simplex {
+/// also when coplanar triangles or opposite sides are equally near. With its distance [m]; infinite and empty without faces
+/// (collision.8).
+fn nearest_to(exit: DVec3, faces: impl Iterator<Item = [DifferencePoint; 3]>) -> (f64, Simplex) {
     let mut best = (f64::INFINITY, Simplex::EMPTY);
     for corners in faces {
         let mut simplex = Simplex::triangle(corners.map(|vertex| DifferencePoint {
@@ -189,7 +190,7 @@ fn nearest_to(exit: DVec3, faces: impl Iterator<Item = [DifferencePoint; 3]>) ->
             best = (nearest.distance, simplex);
         }
     }
-    best.1
+    best
 }
 
 /// Largest distance of a vertex from the origin [m].
@@ -240,6 +241,7 @@ fn nearest_of_faces(tetrahedron: &Simplex) -> Simplex {
     best.1
 }
 
+/// Grows the polytope at its lowest face until that supports the difference (collision.6).
 fn expand<A, B, const VERTICES: usize, const FACES: usize>(
     difference: &MinkowskiDifference<'_, A, B>,
     polytope: &mut Polytope<VERTICES, FACES>,
@@ -287,7 +289,11 @@ where
     let plane = Plane {
         normal: -outward,
         separation: -bound,
-        simplex: polytope.feature_at(outward * bound, bound + NOISE * scale + tolerance),
+        simplex: polytope.feature_at(
+            outward * bound,
+            bound + NOISE * scale + tolerance,
+            DENT * scale,
+        ),
     };
     Expansion {
         plane,

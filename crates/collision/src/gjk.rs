@@ -225,7 +225,7 @@ impl SimplexCache {
     }
 }
 
-/// The search itself, on cores.
+/// The search itself, on cores (collision.2).
 pub(crate) fn search<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     cache: &SimplexCache,

@@ -30,6 +30,7 @@ pub(crate) struct Nearest {
 }
 
 impl Segments {
+    /// (collision.5)
     pub(crate) fn nearest(&self) -> Nearest {
         let cross = self.common_normal();
         let (on_a, gap) = self.parameters(cross);

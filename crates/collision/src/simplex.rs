@@ -91,7 +91,7 @@ impl Simplex {
             .sqrt()
     }
 
-    /// Keeps only the vertices of the feature nearest to the origin. `None`: four vertices that enclose the origin, all kept.
+    /// Keeps only the vertices of the feature nearest to the origin (collision.3). `None`: four vertices that enclose the origin, all kept.
     pub(crate) fn reduce(&mut self) -> Option<Nearest> {
         let best = match self.len {
             0 => return None,
@@ -251,7 +251,7 @@ pub(crate) fn plane_of(corners: [DVec3; 3]) -> Option<(DVec3, f64)> {
     }
 }
 
-/// Cross product of the edges at a corner of a triangle (p, q, r), along (q − p) × (r − p), and that corner.
+/// Cross product of the edges at a corner of a triangle (p, q, r), along (q − p) × (r − p), and that corner (collision.4).
 ///
 /// Of the three ways to take it a needle needs the one at the corner opposite its longest edge: the others lose as many
 /// digits as it is long.

@@ -140,7 +140,7 @@ impl<'s, A: SupportMap + ?Sized, B: SupportMap + ?Sized> MinkowskiDifference<'s,
         self.offset
     }
 
-    /// Vertex of the difference furthest along `direction`, climbing from the vertices of `start`.
+    /// Vertex of the difference furthest along `direction`, climbing from the vertices of `start` (collision.1).
     #[inline]
     pub(crate) fn support(&self, direction: DVec3, start: &DifferencePoint) -> DifferencePoint {
         let on_a = self.a.support(-direction, start.a);

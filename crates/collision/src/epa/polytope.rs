@@ -204,16 +204,23 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         self.heights[slot] > 0.0 && self.heights[slot] < f64::INFINITY
     }
 
-    /// Where the way out at `exit` meets the surface, among faces not higher than `limit`.
-    pub(crate) fn feature_at(&self, exit: DVec3, limit: f64) -> Simplex {
-        let faces = self.faces[..self.face_end].iter().zip(&self.heights);
-        let near = faces
-            .filter(|(face, height)| face.live && **height <= limit)
-            .map(|(face, _)| {
-                face.corners
-                    .map(|corner| self.vertices[usize::from(corner)])
-            });
-        let mut simplex = nearest_to(exit, near);
+    /// Where the way out at `exit` meets the surface: among faces not higher than `limit`, or among all where none of those
+    /// comes closer than `miss` [m] because rounding has put the right one above.
+    pub(crate) fn feature_at(&self, exit: DVec3, limit: f64, miss: f64) -> Simplex {
+        let below = |limit: f64| {
+            let faces = self.faces[..self.face_end].iter().zip(&self.heights);
+            faces
+                .filter(move |(face, height)| face.live && **height <= limit)
+                .map(|(face, _)| {
+                    face.corners
+                        .map(|corner| self.vertices[usize::from(corner)])
+                })
+        };
+        let (distance, simplex) = nearest_to(exit, below(limit));
+        if distance <= miss {
+            return simplex;
+        }
+        let (_, mut simplex) = nearest_to(exit, below(f64::INFINITY));
         if simplex.vertices().is_empty() {
             simplex.push(self.vertices[0]);
             simplex.reduce();
