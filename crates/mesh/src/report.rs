@@ -70,7 +70,7 @@ pub struct Soundness {
 impl Soundness {
     /// Looks at a mesh as it is, unwelded vertices joined.
     pub fn of(mesh: &TriangleMesh) -> Self {
-        let (welded, _) = mesh.welded(0.0);
+        let welded = mesh.joined();
         Self {
             degenerate_triangles: mesh.degenerate_triangles().len(),
             shells: welded.shells(),

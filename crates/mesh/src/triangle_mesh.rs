@@ -4,6 +4,7 @@
 //! Volume is the sum of signed tetrahedra to one point (divergence theorem), taken about the middle of the
 //! bounds so that a mesh far from the origin loses no digits.
 
+mod coincident;
 mod weld;
 
 use glam::DVec3;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::TriangleMesh;
+use super::coincident::first_at;
 
 /// What [`TriangleMesh::welded`] changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,11 +23,16 @@ impl TriangleMesh {
     /// triangles with a repeated corner and vertices that no triangle uses. The order of what remains is
     /// kept. When every triangle would collapse the mesh is returned unchanged with an empty report.
     pub fn welded(&self, tolerance: f64) -> (Self, WeldReport) {
-        let target = if tolerance > 0.0 {
-            nearby_targets(&self.positions, tolerance)
+        if tolerance > 0.0 {
+            self.merged(Some(nearby_targets(&self.positions, tolerance)))
         } else {
-            equal_targets(&self.positions)
-        };
+            self.merged(first_at(&self.positions))
+        }
+    }
+
+    /// [`TriangleMesh::welded`] with the vertex that each one becomes; all stay without a list.
+    pub(super) fn merged(&self, target: Option<Vec<u32>>) -> (Self, WeldReport) {
+        let target = target.unwrap_or_else(|| (0..).take(self.positions.len()).collect());
         let kept: Vec<[u32; 3]> = self
             .triangles
             .iter()
@@ -87,18 +93,6 @@ pub(crate) fn compacted(positions: &[DVec3], triangles: &[[u32; 3]]) -> Triangle
         .map(|t| t.map(|v| new_index[v as usize]))
         .collect();
     TriangleMesh::trusted(kept, triangles)
-}
-
-/// For each vertex the first one with equal coordinates (-0 equals 0).
-fn equal_targets(positions: &[DVec3]) -> Vec<u32> {
-    let mut first: HashMap<[u64; 3], u32> = HashMap::with_capacity(positions.len());
-    (0..)
-        .zip(positions)
-        .map(|(i, p)| {
-            let key = (*p + DVec3::ZERO).to_array().map(f64::to_bits);
-            *first.entry(key).or_insert(i)
-        })
-        .collect()
 }
 
 /// For each vertex the first kept one within `tolerance`: a grid of cells as wide as the tolerance, so that
