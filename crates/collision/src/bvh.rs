@@ -11,13 +11,13 @@ use pliant_mesh::{Aabb, TriangleMesh};
 
 use crate::RayHit;
 
+mod cluster;
 pub(crate) mod frame;
 mod objects;
 pub(crate) mod ray;
 pub(crate) mod stack;
 pub(crate) mod tree;
 pub(crate) mod triangle;
-mod weld;
 
 pub use objects::ObjectBvh;
 
@@ -28,7 +28,7 @@ use tree::BoxTree;
 /// A hierarchy over one [`TriangleMesh`]; queries that need corners take the same mesh again.
 pub struct TriangleBvh {
     pub(crate) tree: BoxTree,
-    /// See [`weld::representatives`].
+    /// See [`TriangleMesh::coincident_vertices`].
     welded: Option<Vec<u32>>,
     /// Unlike that of any other state of any tree: tells caches when what they know is void.
     pub(crate) revision: u64,
@@ -46,14 +46,14 @@ pub struct SurfacePoint {
 }
 
 impl TriangleBvh {
-    /// Builds the tree: about 5 ms for 10⁴ triangles, below 1 s for 10⁶.
+    /// Builds the tree: about 4 ms for 10⁴ triangles, half a second for 10⁶.
     pub fn new(mesh: &TriangleMesh) -> Self {
         let boxes = (0..)
             .take(mesh.triangles().len())
             .map(|triangle| Aabb::from_points(&mesh.corners(triangle)));
         Self {
             tree: BoxTree::new(&mesh.bounds(), boxes),
-            welded: weld::representatives(mesh.positions()),
+            welded: mesh.coincident_vertices(),
             revision: next_revision(),
         }
     }

@@ -4,7 +4,6 @@
 //! also where they only touch. A distance between mapped boxes is a lower bound of the true one up to [`SLACK`].
 
 use glam::{DVec3, Vec3A};
-use obvhs::Boundable;
 use pliant_mesh::Aabb;
 
 /// Slack of comparisons in the unit frame, relative to the largest coordinate: a hundred units in the last place of
@@ -114,8 +113,9 @@ impl UnitBox {
     }
 }
 
-impl Boundable for UnitBox {
-    fn aabb(&self) -> obvhs::aabb::Aabb {
+impl UnitBox {
+    /// The box as obvhs has it.
+    pub(super) fn to_obvhs(self) -> obvhs::aabb::Aabb {
         obvhs::aabb::Aabb {
             min: Vec3A::from_array(self.min),
             max: Vec3A::from_array(self.max),

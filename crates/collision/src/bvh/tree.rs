@@ -1,7 +1,7 @@
 //! The hierarchy itself: boxes of anything numbered, built once, refitted in place.
 //!
-//! Built by obvhs (PLOC with reinsertion, Meister & Bittner 2018 and 2022), no primitive split, then copied into nodes of
-//! 32 bytes in which parents come before children, so that a refit is one backward sweep. Content on which PLOC grows
+//! Leaves are made first ([`super::cluster`]), then joined by obvhs (PLOC with reinsertion, Meister & Bittner 2018 and
+//! 2022), no primitive split, then copied into nodes of 32 bytes in which parents come before children, so that a refit is one backward sweep. Content on which PLOC grows
 //! deeper than a traversal's stack holds (boxes in geometric progression) is built by median splits instead.
 
 use std::ops::Range;
@@ -12,8 +12,18 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use pliant_mesh::Aabb;
 
+use super::cluster::{self, Group};
 use super::frame::{UnitBox, UnitFrame};
 use super::stack::{DEPTH_LIMIT, Stack};
+
+/// How obvhs builds: leaves stay as they come.
+const BUILD: BvhBuildParams = BvhBuildParams {
+    search_depth_threshold: 0,
+    reinsertion_batch_ratio: 0.1,
+    post_collapse_reinsertion_batch_ratio_multiplier: 0.0,
+    max_prims_per_leaf: 1,
+    ..BvhBuildParams::medium_build()
+};
 
 /// Largest leaf of a balanced tree.
 const BALANCED_LEAF: usize = 4;
@@ -64,10 +74,10 @@ impl BoxTree {
             };
         }
         let mut elapsed = Duration::ZERO;
-        let solid: Vec<UnitBox> = in_order.iter().map(|unit| unit.or_origin()).collect();
-        let built = build_bvh2(&solid, BvhBuildParams::medium_build(), &mut elapsed);
+        let (groups, order) = cluster::groups(&in_order);
+        let built = build_bvh2(&groups, BUILD, &mut elapsed);
         let (nodes, primitives) =
-            copied(&built, in_order.len()).unwrap_or_else(|| balanced(&in_order));
+            copied(&built, &groups, &order).unwrap_or_else(|| balanced(&in_order));
         let boxes = primitives
             .iter()
             .map(|&primitive| in_order[primitive as usize])
@@ -197,9 +207,9 @@ impl<F: Fn(&UnitBox) -> f64> Search<'_, F> {
 
 /// obvhs' tree with parents before children and slots in the order of the leaves; `None` if it is too deep or lacks a
 /// primitive.
-fn copied(built: &Bvh2, count: usize) -> Option<(Vec<Node>, Vec<u32>)> {
+fn copied(built: &Bvh2, groups: &[Group], order: &[u32]) -> Option<(Vec<Node>, Vec<u32>)> {
     let mut nodes = Vec::with_capacity(built.nodes.len());
-    let mut primitives = Vec::with_capacity(count);
+    let mut primitives = Vec::with_capacity(order.len());
     let mut waiting = vec![(0_usize, 0_usize, 0_usize)];
     nodes.push(Node::EMPTY);
     while let Some((from, to, depth)) = waiting.pop() {
@@ -209,10 +219,11 @@ fn copied(built: &Bvh2, count: usize) -> Option<(Vec<Node>, Vec<u32>)> {
         let node = built.nodes.get(from)?;
         let first = node.first_index as usize;
         if node.is_leaf() {
-            let owned = first..first + node.prim_count as usize;
-            nodes[to].count = node.prim_count;
+            // Leaves of the builder hold one group each.
+            let group = groups.get(*built.primitive_indices.get(first)? as usize)?;
+            nodes[to].count = index(group.count);
             nodes[to].first = index(primitives.len());
-            primitives.extend_from_slice(built.primitive_indices.get(owned)?);
+            primitives.extend_from_slice(order.get(group.start..group.start + group.count)?);
         } else {
             let children = nodes.len();
             nodes[to].first = index(children);
@@ -221,7 +232,7 @@ fn copied(built: &Bvh2, count: usize) -> Option<(Vec<Node>, Vec<u32>)> {
             waiting.push((first, children, depth + 1));
         }
     }
-    (primitives.len() == count).then_some((nodes, primitives))
+    (primitives.len() == order.len()).then_some((nodes, primitives))
 }
 
 /// A tree by median splits along the longest side: depth ⌈log₂ n⌉ whatever the boxes.
