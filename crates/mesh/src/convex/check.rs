@@ -4,28 +4,26 @@
 //! alone prove nothing. Let Θ be the sum of all concave dihedral angles, D the size and r the distance from
 //! the centroid to the nearest face plane. A plane section through the centroid meets each edge at most once
 //! and turns the wrong way there by at most D/r times the edge's angle, so no vertex is more than Θ·D²/r
-//! above a face plane. When that bound is not small enough (printed decimals), the definition itself is
-//! tested: the highest vertex over every face plane, found in a tree of boxes by branch and bound.
+//! above a face plane. When that bound is not small enough (printed decimals, `f32`), the definition itself is
+//! tested ([`planes`]).
 //! One winding around the centroid excludes branched surfaces that satisfy all planes.
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::ConvexityError;
 use crate::triangle_mesh::altitude;
 use crate::{EdgeId, FaceId, HalfEdgeMesh, TriangleMesh, VertexId};
 
-mod tree;
-
-use tree::VertexTree;
+mod planes;
 
 /// Volume over area, relative to the size, below which a mesh has no inside: rounding then decides the sign
 /// of the volume.
 const FLAT: f64 = 1e-10;
 
-/// Share of the tolerance that the summed concave angles may use up before the tree is asked: the bound is
-/// an estimate, the tree exact.
+/// Share of the tolerance that the summed concave angles may use up before all planes are tested: the bound is
+/// an estimate, the test exact.
 const BOUND_SHARE: f64 = 0.1;
 
 /// Returns the centroid [m] of a mesh that passes.
@@ -150,10 +148,11 @@ fn centroid_of(mesh: &TriangleMesh) -> DVec3 {
 /// The solid angles of all triangles seen from `center` add up to one full turn (mesh.11) (A. van Oosterom and
 /// J. Strackee, "The solid angle of a plane triangle", IEEE TBME 30(2), 1983, eq. 8).
 fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityError> {
+    let round = rounding(mesh.positions(), center);
     let total: f64 = (0..)
         .take(mesh.triangles().len())
         .map(|i| {
-            let [a, b, c] = mesh.corners(i).map(|p| p - center);
+            let [a, b, c] = mesh.corners(i).map(|p| round * (p - center));
             let (la, lb, lc) = (a.length(), b.length(), c.length());
             let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
             2.0 * a.dot(b.cross(c)).atan2(below)
@@ -167,28 +166,46 @@ fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityErro
     }
 }
 
+/// The linear map that brings a needle or a plate around `center` to the same extent in three directions. It leaves the
+/// number of turns as it is, where the angles of a needle 10⁻⁷ as thick as long would be lost in rounding.
+fn rounding(positions: &[DVec3], center: DVec3) -> DMat3 {
+    let farthest = |measure: &dyn Fn(DVec3) -> DVec3| {
+        let longer = |best: DVec3, &p: &DVec3| {
+            let one = measure(p - center);
+            if one.length_squared() > best.length_squared() {
+                one
+            } else {
+                best
+            }
+        };
+        positions.iter().fold(DVec3::ZERO, longer)
+    };
+    let long = farthest(&|p| p);
+    let along = long.normalize_or(DVec3::X);
+    let wide = farthest(&|p| p - p.dot(along) * along);
+    let wide = wide - wide.dot(along) * along;
+    let across = wide.normalize_or(along.any_orthonormal_vector());
+    let third = along.cross(across);
+    let thick = positions
+        .iter()
+        .map(|p| third.dot(p - center).abs())
+        .fold(f64::MIN_POSITIVE, f64::max);
+    let extents = DVec3::new(long.length(), wide.length(), thick).max(DVec3::splat(1e-150));
+    DMat3::from_diagonal(extents.recip()) * DMat3::from_cols(along, across, third).transpose()
+}
+
 /// Refuses the highest vertex over any face plane (mesh.8).
 fn check_planes(
     topology: &HalfEdgeMesh,
     thick: &[bool],
     tolerance: f64,
 ) -> Result<(), ConvexityError> {
-    let tree = VertexTree::new(topology.positions());
-    let mut worst: Option<(f64, FaceId, u32)> = None;
-    for face in faces_of(topology).filter(|f| thick[f.index()]) {
-        let limit = worst.map_or(tolerance, |(height, ..)| height);
-        let plane = topology.face_normal(face);
-        let base = topology.face_corners(face)[0];
-        if let Some((vertex, height)) = tree.highest_above(plane, plane.dot(base) + limit) {
-            worst = Some((height + limit, face, vertex));
-        }
-    }
-    worst.map_or(Ok(()), |(height, face, vertex)| {
+    planes::highest_above(topology, thick, tolerance).map_or(Ok(()), |worst| {
         Err(ConvexityError::VertexAboveFace {
-            vertex: VertexId(vertex),
-            position: topology.positions()[vertex as usize],
-            face,
-            height,
+            vertex: VertexId(worst.vertex),
+            position: topology.positions()[worst.vertex as usize],
+            face: worst.face,
+            height: worst.height,
             tolerance,
         })
     })
@@ -199,7 +216,8 @@ mod tests {
     use crate::{
         CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError, HalfEdgeMesh, TriangleMesh, generate,
     };
-    use glam::DVec3;
+    use glam::{DQuat, DVec3, EulerRot};
+    use pliant_spatial::Pose;
     use std::f64::consts::TAU;
 
     /// Two apexes over a ring of `n` vertices that goes `turns` times around.
@@ -302,6 +320,37 @@ mod tests {
             panic!("{error}")
         };
         assert!(height > 10.0 * tolerance, "{height} {tolerance}");
+    }
+
+    #[test]
+    fn needles_and_plates_far_thinner_than_the_tolerance_wind_once() {
+        let turn = Pose::new(DQuat::from_euler(EulerRot::XYZ, 0.3, 0.8, -0.4), DVec3::ONE);
+        for thin in [1e-5, 1e-7, 1e-8] {
+            let shapes = [
+                generate::cylinder(thin, 0.2, 32).unwrap(),
+                generate::capsule(thin, 0.2, 32, 8).unwrap(),
+                generate::cone([thin, 0.0], 0.2, 32).unwrap(),
+                generate::plate(0.2, 0.1, thin).unwrap(),
+                generate::cuboid(DVec3::new(thin, 0.1, 10.0 * thin)).unwrap(),
+            ];
+            for shape in shapes {
+                ConvexMesh::from_triangles(&shape).unwrap();
+                ConvexMesh::from_triangles(&shape.transformed(&turn)).unwrap();
+                ConvexMesh::hull(shape.positions()).unwrap();
+            }
+        }
+    }
+
+    #[test]
+    fn a_thin_bipyramid_that_winds_twice_is_still_refused() {
+        let thin = bipyramid(5, 2, 1.0);
+        let positions = thin
+            .positions()
+            .iter()
+            .map(|p| *p * DVec3::new(1e-7, 1e-7, 1.0));
+        let thin = TriangleMesh::new(positions.collect(), thin.triangles().to_vec()).unwrap();
+        let error = ConvexMesh::from_triangles(&thin).unwrap_err();
+        assert!(matches!(error, ConvexityError::Winding { turns } if (turns - 2.0).abs() < 1e-6));
     }
 
     #[test]
