@@ -42,6 +42,26 @@ pub struct Rounded<S> {
     pub radius: f64,
 }
 
+impl Rounded<Point> {
+    /// A ball [m].
+    pub fn sphere(centre: DVec3, radius: f64) -> Self {
+        Self {
+            core: Point(centre),
+            radius,
+        }
+    }
+}
+
+impl Rounded<Segment> {
+    /// The segment between two points with a radius around it [m].
+    pub fn capsule(a: DVec3, b: DVec3, radius: f64) -> Self {
+        Self {
+            core: Segment { a, b },
+            radius,
+        }
+    }
+}
+
 impl SupportMap for Point {
     fn support(&self, _direction: DVec3, _start: u32) -> SupportPoint {
         SupportPoint {
