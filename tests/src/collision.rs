@@ -1,7 +1,8 @@
 //! The judges of the collision crate: reference files, and random campaigns against an exhaustive oracle.
 //!
-//! The oracle shares no code with GJK and EPA: it enumerates faces, edges and vertices. What it says is proved per answer
-//! from both sides wherever shapes are apart, by a pair of points and by a pair of planes.
+//! The oracle shares no code with GJK and EPA: it enumerates faces, edges and vertices, or, of cylinders and cones, searches
+//! over directions. What it says is proved per answer from both sides wherever shapes are apart, by a pair of points and by a
+//! pair of planes.
 
 pub mod answer;
 pub mod campaign;
@@ -12,6 +13,8 @@ pub mod kinds;
 pub mod oracle;
 pub mod placement;
 pub mod reference;
+pub mod round;
+pub mod search;
 pub mod shape;
 pub mod snippet;
 pub mod verdict;

@@ -8,6 +8,7 @@ use pliant_spatial::Pose;
 
 use super::families::Pair;
 use super::oracle::Scene;
+use super::search::Search;
 use super::shape::Shape;
 
 /// Largest error allowed, relative to the size.
@@ -65,12 +66,81 @@ impl Verdict {
     }
 }
 
+/// Who knows the truth about two cores at a placement.
+pub enum Oracle<'p> {
+    /// Enumeration of the features of two polytopes.
+    Features(Scene<'p>),
+    /// Search over directions: at least one is a cylinder or cone.
+    Directions(Search<'p>),
+}
+
+impl<'p> Oracle<'p> {
+    /// The one in charge.
+    pub fn new(a: &'p Shape, b: &'p Shape, a_from_b: &Pose) -> Self {
+        if a.body.turned().is_some() || b.body.turned().is_some() {
+            Self::Directions(Search::new(a, b, a_from_b))
+        } else {
+            Self::Features(Scene::new(&a.core, &b.core, a_from_b))
+        }
+    }
+
+    /// Signed distance of the cores [m] and its direction, in A's frame from A to B.
+    pub fn signed_distance(&self) -> (f64, DVec3) {
+        match self {
+            Self::Features(scene) => {
+                let truth = scene.truth();
+                (truth.separation, truth.normal)
+            }
+            Self::Directions(search) => search.best(),
+        }
+    }
+
+    /// Signed distance and how far it may be off [m]. A search also climbs from a direction proposed by the crate under
+    /// test: its gap is a lower bound of the truth whoever proposes it.
+    fn truth(&self, proposed: impl FnOnce() -> DVec3) -> (f64, f64) {
+        match self {
+            Self::Features(scene) => {
+                let truth = scene.truth();
+                (truth.separation, truth.doubt)
+            }
+            Self::Directions(search) => {
+                let own = search.best().0;
+                let other = proposed().try_normalize();
+                let other = other.map_or(own, |normal| search.climb(normal, 1e-3).0);
+                (own.max(other), 0.0)
+            }
+        }
+    }
+
+    fn gap(&self, normal: DVec3) -> f64 {
+        match self {
+            Self::Features(scene) => scene.gap(normal),
+            Self::Directions(search) => search.gap(normal),
+        }
+    }
+
+    fn span(&self) -> f64 {
+        match self {
+            Self::Features(scene) => scene.span(),
+            Self::Directions(search) => search.span(),
+        }
+    }
+
+    /// Of two points in A's frame from the cores of A and B [m].
+    fn distances(&self, on_a: DVec3, on_b: DVec3) -> [f64; 2] {
+        match self {
+            Self::Features(scene) => scene.distances(on_a, scene.in_b(on_b)),
+            Self::Directions(search) => search.distances(on_a, search.in_b(on_b)),
+        }
+    }
+}
+
 /// A pair at a placement with the truth about it.
 pub struct Question<'p> {
     shapes: [&'p Shape; 2],
     a_from_b: Pose,
     size: f64,
-    scene: Scene<'p>,
+    oracle: Oracle<'p>,
     /// Signed distance of the rounded shapes [m].
     truth: f64,
     /// The oracle cannot say.
@@ -83,18 +153,21 @@ impl<'p> Question<'p> {
     /// Asks the oracle.
     pub fn new(pair: &'p Pair, a_from_b: &Pose) -> Self {
         let [a, b] = [&*pair.shapes[0], &*pair.shapes[1]];
-        let scene = Scene::new(&a.core, &b.core, a_from_b);
-        let truth = scene.truth();
+        let oracle = Oracle::new(a, b, a_from_b);
         let far = |shape: &Shape| shape.core.vertices[0].length();
-        let span = scene.span() + far(a) + far(b);
+        let span = oracle.span() + far(a) + far(b);
+        let (cores, doubt) = oracle.truth(|| {
+            let mut cache = SimplexCache::default();
+            a.with(|a| b.with(|b| closest_points(a, b, a_from_b, &mut cache).normal))
+        });
         Self {
             shapes: [a, b],
             a_from_b: *a_from_b,
             size: pair.size,
-            truth: truth.separation - (a.radius + b.radius),
-            undecided: truth.doubt.is_nan() || truth.doubt.abs() > ORACLE_SLACK * span,
+            truth: cores - (a.radius + b.radius),
+            undecided: doubt.is_nan() || doubt.abs() > ORACLE_SLACK * span,
             rounding: 1e-14 * span,
-            scene,
+            oracle,
         }
     }
 
@@ -208,12 +281,12 @@ impl<'p> Question<'p> {
         }
         verdict.limit(Fault::NotUnit, (normal.length() - 1.0).abs(), UNIT_SLACK);
         let [radius_a, radius_b] = self.shapes.map(|shape| shape.radius);
-        let gap = self.scene.gap(normal) - (radius_a + radius_b);
+        let gap = self.oracle.gap(normal) - (radius_a + radius_b);
         verdict.limit(Fault::Normal, (separation - gap) / self.size, tolerance);
         verdict.limit(Fault::Oracle, (gap - self.truth) / self.size, tolerance);
         let oblique = (witness_b - witness_a) - normal * separation;
         verdict.limit(Fault::Contract, oblique.length() / self.size, tolerance);
-        let [core_a, core_b] = self.scene.distances(witness_a, self.scene.in_b(witness_b));
+        let [core_a, core_b] = self.oracle.distances(witness_a, witness_b);
         let outside = (core_a - radius_a).max(core_b - radius_b);
         verdict.limit(Fault::Outside, outside / self.size, tolerance);
     }

@@ -23,6 +23,8 @@ pub struct Extent {
     pub pairs_per_cell: u32,
     /// Of each family with the ellipsoid of 12,672 faces.
     pub ellipsoid_pairs: u32,
+    /// Of each family and two kinds, one a cylinder or cone.
+    pub turned_pairs: u32,
 }
 
 impl Extent {
@@ -30,12 +32,14 @@ impl Extent {
     pub const FULL: Self = Self {
         pairs_per_cell: 480,
         ellipsoid_pairs: 100,
+        turned_pairs: 24,
     };
 
     /// Seconds.
     pub const SHORT: Self = Self {
         pairs_per_cell: 24,
         ellipsoid_pairs: 2,
+        turned_pairs: 1,
     };
 }
 
@@ -52,6 +56,8 @@ pub enum Class {
     BothRound,
     /// One has 12,672 faces.
     Ellipsoid,
+    /// One is a cylinder or cone.
+    Turned,
 }
 
 /// Families that bring out what is special about 10⁴ faces.
@@ -184,6 +190,20 @@ fn items(extent: Extent) -> Vec<Item> {
             }
         }
     }
+    for family in Family::ALL {
+        for turned in [Kind::Cylinder, Kind::Cone] {
+            for partner in Kind::SMALL {
+                cell(family, [turned, partner], extent.turned_pairs);
+            }
+        }
+        for kinds in [
+            [Kind::Cylinder, Kind::Cylinder],
+            [Kind::Cylinder, Kind::Cone],
+            [Kind::Cone, Kind::Cone],
+        ] {
+            cell(family, kinds, extent.turned_pairs);
+        }
+    }
     let partners = u32::try_from(ELLIPSOID_PARTNERS.len()).unwrap_or(1);
     for family in ELLIPSOID_FAMILIES {
         for partner in ELLIPSOID_PARTNERS {
@@ -225,6 +245,9 @@ impl Item {
         let [a, b] = self.kinds;
         if b == Kind::Ellipsoid {
             return Class::Ellipsoid;
+        }
+        if a.is_turned() || b.is_turned() {
+            return Class::Turned;
         }
         match (round(a), round(b)) {
             (true, true) => Class::BothRound,

@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
+use pliant_collision::{Cone, Cylinder};
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 use rand::Rng;
 use rand::seq::SliceRandom;
@@ -45,6 +46,10 @@ pub enum Kind {
     PointSet,
     /// The latitude-longitude ellipsoid of 12,672 faces.
     Ellipsoid,
+    /// A cylinder.
+    Cylinder,
+    /// A cone, pointed or truncated.
+    Cone,
 }
 
 /// What is done to a shape of about unit size, in this order.
@@ -127,7 +132,13 @@ impl Kind {
         Self::PointSet,
     ];
 
+    /// Whether it is no polytope.
+    pub fn is_turned(self) -> bool {
+        matches!(self, Self::Cylinder | Self::Cone)
+    }
+
     /// A random shape of this kind.
+    #[expect(clippy::too_many_lines, reason = "one arm a kind")]
     pub fn shape(self, form: &Form, random: &mut ChaCha8Rng) -> Arc<Shape> {
         let mut length = |low: f64, high: f64| random.random_range(low..high);
         let simple = |body, radius| Arc::new(Shape::new(body, form.radius(radius)));
@@ -146,6 +157,26 @@ impl Kind {
                     length(0.02, 0.3)
                 };
                 simple(Body::Cuboid(half * form.stretch * form.scale), radius)
+            }
+            Self::Cylinder => {
+                let radius = length(0.1, 0.5) * form.stretch.x * form.scale;
+                let half_length = length(0.1, 0.6) * form.stretch.z * form.scale;
+                let body = Body::Cylinder(Cylinder {
+                    half_length,
+                    radius,
+                });
+                simple(body, 0.0)
+            }
+            Self::Cone => {
+                let base_radius = length(0.1, 0.5) * form.stretch.x * form.scale;
+                let top_radius = base_radius * (length(0.0, 2.0) - 1.0).max(0.0);
+                let half_length = length(0.1, 0.6) * form.stretch.z * form.scale;
+                let body = Body::Cone(Cone {
+                    half_length,
+                    base_radius,
+                    top_radius,
+                });
+                simple(body, 0.0)
             }
             Self::Segment | Self::Capsule => {
                 let radius = if self == Self::Segment {

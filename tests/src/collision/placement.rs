@@ -5,9 +5,9 @@ use pliant_spatial::Pose;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
+use super::answer::Oracle;
 use super::families::{power, rotation};
 use super::kinds::unit;
-use super::oracle::Scene;
 use super::shape::Shape;
 
 /// Two shapes about to be placed.
@@ -217,13 +217,7 @@ impl Placement<'_> {
     /// Centres on a line along `direction`, supporting planes across it `gap` [m] apart.
     fn slab(&self, turn: DQuat, direction: DVec3, gap: f64) -> Pose {
         let [p, q] = [self.a, self.b].map(centre);
-        let highest = |shape: &Shape, origin: DVec3, direction: DVec3| {
-            let heights = shape.core.vertices.iter();
-            let heights = heights.map(|&v| (v - origin).dot(direction));
-            heights.fold(f64::NEG_INFINITY, f64::max) + shape.radius
-        };
-        let reach =
-            highest(self.a, p, direction) + highest(self.b, q, turn.conjugate() * -direction);
+        let reach = self.a.height(p, direction) + self.b.height(q, turn.conjugate() * -direction);
         Pose::new(turn, p - turn * q + direction * (reach + gap))
     }
 
@@ -234,9 +228,9 @@ impl Placement<'_> {
         let mut pose = self.slab(turn, direction, 0.1 * self.size);
         let side = unit(self.random) * (self.size * self.random.random_range(0.0..0.4));
         pose.translation += side - direction * side.dot(direction);
-        let truth = Scene::new(&self.a.core, &self.b.core, &pose).truth();
-        let now = truth.separation - (self.a.radius + self.b.radius);
-        pose.translation -= truth.normal * (now - separation);
+        let (cores, normal) = Oracle::new(self.a, self.b, &pose).signed_distance();
+        let now = cores - (self.a.radius + self.b.radius);
+        pose.translation -= normal * (now - separation);
         pose
     }
 }

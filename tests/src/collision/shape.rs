@@ -1,10 +1,13 @@
 //! A shape twice: as the collision crate takes it, and as the oracle sees it.
 
 use glam::DVec3;
-use pliant_collision::{Cuboid, Point, PointSet, Rounded, Segment, SupportMap, Triangle};
+use pliant_collision::{
+    Cone, Cuboid, Cylinder, Point, PointSet, Rounded, Segment, SupportMap, Triangle,
+};
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 
 use super::core::Core;
+use super::round::{Turned, height_of};
 
 /// A core in the crate's own type, so that judges run the code that users run.
 #[derive(Clone, Debug)]
@@ -17,6 +20,10 @@ pub enum Body {
     Triangle([DVec3; 3]),
     /// A box by its half lengths [m].
     Cuboid(DVec3),
+    /// A cylinder.
+    Cylinder(Cylinder),
+    /// A cone.
+    Cone(Cone),
     /// Points in any order.
     Points(Vec<DVec3>),
     /// A mesh to climb on.
@@ -30,7 +37,7 @@ pub struct Shape {
     pub body: Body,
     /// Around it [m].
     pub radius: f64,
-    /// For the oracle.
+    /// For the oracle; of a cylinder or cone only a polytope inside it, to place it by.
     pub core: Core,
 }
 
@@ -56,6 +63,8 @@ impl Shape {
                 Body::Segment([a, b]) => f(&Segment { a: *a, b: *b }),
                 Body::Triangle(corners) => f(&Triangle(*corners)),
                 Body::Cuboid(half) => f(&Cuboid { half: *half }),
+                Body::Cylinder(cylinder) => f(cylinder),
+                Body::Cone(cone) => f(cone),
                 Body::Points(points) => f(&PointSet(points)),
                 Body::Mesh(mesh) => f(mesh.as_ref()),
             };
@@ -65,9 +74,20 @@ impl Shape {
             Body::Segment([a, b]) => f(&rounded(Segment { a: *a, b: *b }, radius)),
             Body::Triangle(corners) => f(&rounded(Triangle(*corners), radius)),
             Body::Cuboid(half) => f(&rounded(Cuboid { half: *half }, radius)),
+            Body::Cylinder(cylinder) => f(&rounded(*cylinder, radius)),
+            Body::Cone(cone) => f(&rounded(*cone, radius)),
             Body::Points(points) => f(&rounded(PointSet(points), radius)),
             Body::Mesh(mesh) => f(&rounded(mesh.as_ref(), radius)),
         }
+    }
+
+    /// Height of the rounded shape over `origin` along a unit direction [m].
+    pub fn height(&self, origin: DVec3, direction: DVec3) -> f64 {
+        let core = match self.body.turned() {
+            Some(body) => body.height(direction) - origin.dot(direction),
+            None => height_of(&self.core, origin, direction),
+        };
+        core + self.radius
     }
 
     /// Diameter of the box around it, roughly [m]: what tolerances are relative to.
@@ -80,7 +100,16 @@ impl Shape {
 }
 
 impl Body {
-    /// Its vertices.
+    /// The body as a solid of revolution, if it is one.
+    pub fn turned(&self) -> Option<Turned> {
+        match self {
+            Self::Cylinder(cylinder) => Some(Turned::from(*cylinder)),
+            Self::Cone(cone) => Some(Turned::from(*cone)),
+            _ => None,
+        }
+    }
+
+    /// Its vertices, or some of them.
     pub fn points(&self) -> Vec<DVec3> {
         match self {
             Self::Point(p) => vec![*p],
@@ -92,6 +121,8 @@ impl Body {
                     *half * DVec3::new(sign(1), sign(2), sign(4))
                 })
                 .collect(),
+            Self::Cylinder(cylinder) => Turned::from(*cylinder).points(),
+            Self::Cone(cone) => Turned::from(*cone).points(),
             Self::Points(points) => points.clone(),
             Self::Mesh(mesh) => mesh.positions().to_vec(),
         }

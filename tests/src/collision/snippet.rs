@@ -51,6 +51,17 @@ fn body(body: &Body) -> String {
         Body::Segment([a, b]) => format!("Segment {{ a: {}, b: {} }}", vector(*a), vector(*b)),
         Body::Triangle(corners) => format!("Triangle({})", vectors(corners)),
         Body::Cuboid(half) => format!("Cuboid {{ half: {} }}", vector(*half)),
+        Body::Cylinder(cylinder) => format!(
+            "Cylinder {{ half_length: {}, radius: {} }}",
+            number(cylinder.half_length),
+            number(cylinder.radius)
+        ),
+        Body::Cone(cone) => format!(
+            "Cone {{ half_length: {}, base_radius: {}, top_radius: {} }}",
+            number(cone.half_length),
+            number(cone.base_radius),
+            number(cone.top_radius)
+        ),
         Body::Points(points) => format!("PointSet(&{})", vectors(points)),
         Body::Mesh(mesh) if mesh.positions().len() > VERTEX_LIMIT => {
             "(the ellipsoid of the campaign)".to_owned()
