@@ -17,4 +17,5 @@ pub mod round;
 pub mod search;
 pub mod shape;
 pub mod snippet;
+pub mod truth;
 pub mod verdict;

@@ -7,9 +7,8 @@ use pliant_collision::{
 use pliant_spatial::Pose;
 
 use super::families::Pair;
-use super::oracle::Scene;
-use super::search::Search;
 use super::shape::Shape;
+use super::truth::Oracle;
 
 /// Largest error allowed, relative to the size.
 pub const TOLERANCE: f64 = 1e-9;
@@ -62,75 +61,6 @@ impl Verdict {
         // What is not a number is above every limit.
         if measure.is_nan() || measure > limit {
             self.faults.push((fault, measure));
-        }
-    }
-}
-
-/// Who knows the truth about two cores at a placement.
-pub enum Oracle<'p> {
-    /// Enumeration of the features of two polytopes.
-    Features(Scene<'p>),
-    /// Search over directions: at least one is a cylinder or cone.
-    Directions(Search<'p>),
-}
-
-impl<'p> Oracle<'p> {
-    /// The one in charge.
-    pub fn new(a: &'p Shape, b: &'p Shape, a_from_b: &Pose) -> Self {
-        if a.body.turned().is_some() || b.body.turned().is_some() {
-            Self::Directions(Search::new(a, b, a_from_b))
-        } else {
-            Self::Features(Scene::new(&a.core, &b.core, a_from_b))
-        }
-    }
-
-    /// Signed distance of the cores [m] and its direction, in A's frame from A to B.
-    pub fn signed_distance(&self) -> (f64, DVec3) {
-        match self {
-            Self::Features(scene) => {
-                let truth = scene.truth();
-                (truth.separation, truth.normal)
-            }
-            Self::Directions(search) => search.best(),
-        }
-    }
-
-    /// Signed distance and how far it may be off [m]. A search also climbs from a direction proposed by the crate under
-    /// test: its gap is a lower bound of the truth whoever proposes it.
-    fn truth(&self, proposed: impl FnOnce() -> DVec3) -> (f64, f64) {
-        match self {
-            Self::Features(scene) => {
-                let truth = scene.truth();
-                (truth.separation, truth.doubt)
-            }
-            Self::Directions(search) => {
-                let own = search.best().0;
-                let other = proposed().try_normalize();
-                let other = other.map_or(own, |normal| search.climb(normal, 1e-3).0);
-                (own.max(other), 0.0)
-            }
-        }
-    }
-
-    fn gap(&self, normal: DVec3) -> f64 {
-        match self {
-            Self::Features(scene) => scene.gap(normal),
-            Self::Directions(search) => search.gap(normal),
-        }
-    }
-
-    fn span(&self) -> f64 {
-        match self {
-            Self::Features(scene) => scene.span(),
-            Self::Directions(search) => search.span(),
-        }
-    }
-
-    /// Of two points in A's frame from the cores of A and B [m].
-    fn distances(&self, on_a: DVec3, on_b: DVec3) -> [f64; 2] {
-        match self {
-            Self::Features(scene) => scene.distances(on_a, scene.in_b(on_b)),
-            Self::Directions(search) => search.distances(on_a, search.in_b(on_b)),
         }
     }
 }
@@ -298,7 +228,7 @@ mod tests {
     use crate::collision::families::Pair;
     use crate::collision::shape::{Body, Shape};
     use glam::DVec3;
-    use pliant_collision::ClosestPoints;
+    use pliant_collision::{ClosestPoints, Cylinder};
     use pliant_spatial::Pose;
     use std::sync::Arc;
 
@@ -325,6 +255,38 @@ mod tests {
         let mut verdict = Verdict::default();
         Question::new(&pair, &pair.a_from_b).judge(&found, &mut verdict);
         verdict.faults.into_iter().map(|(fault, _)| fault).collect()
+    }
+
+    /// Out along the axis where out through the side is shorter: nothing but the search can tell.
+    #[test]
+    fn too_deep_answers_on_round_bodies_are_refuted() {
+        let body = |radius| {
+            Body::Cylinder(Cylinder {
+                half_length: 0.5,
+                radius,
+            })
+        };
+        let point = Arc::new(Shape::new(Body::Point(DVec3::ZERO), 0.0));
+        let judged = |radius: f64| {
+            let pair = Pair {
+                shapes: [Arc::new(Shape::new(body(radius), 0.0)), point.clone()],
+                a_from_b: Pose::IDENTITY,
+                size: 1.0,
+            };
+            let found = ClosestPoints {
+                witness_a: DVec3::Z * 0.5,
+                witness_b: DVec3::ZERO,
+                normal: DVec3::Z,
+                separation: -0.5,
+            };
+            let mut verdict = Verdict::default();
+            Question::new(&pair, &pair.a_from_b).judge(&found, &mut verdict);
+            let faults: Vec<Fault> = verdict.faults.into_iter().map(|(fault, _)| fault).collect();
+            faults
+        };
+        assert_eq!(judged(0.5 + 1e-8), []);
+        assert_eq!(judged(0.5 - 1e-8), [Fault::Separation]);
+        assert_eq!(judged(0.3), [Fault::Separation]);
     }
 
     #[test]

@@ -138,7 +138,6 @@ impl Kind {
     }
 
     /// A random shape of this kind.
-    #[expect(clippy::too_many_lines, reason = "one arm a kind")]
     pub fn shape(self, form: &Form, random: &mut ChaCha8Rng) -> Arc<Shape> {
         let mut length = |low: f64, high: f64| random.random_range(low..high);
         let simple = |body, radius| Arc::new(Shape::new(body, form.radius(radius)));
@@ -158,26 +157,7 @@ impl Kind {
                 };
                 simple(Body::Cuboid(half * form.stretch * form.scale), radius)
             }
-            Self::Cylinder => {
-                let radius = length(0.1, 0.5) * form.stretch.x * form.scale;
-                let half_length = length(0.1, 0.6) * form.stretch.z * form.scale;
-                let body = Body::Cylinder(Cylinder {
-                    half_length,
-                    radius,
-                });
-                simple(body, 0.0)
-            }
-            Self::Cone => {
-                let base_radius = length(0.1, 0.5) * form.stretch.x * form.scale;
-                let top_radius = base_radius * (length(0.0, 2.0) - 1.0).max(0.0);
-                let half_length = length(0.1, 0.6) * form.stretch.z * form.scale;
-                let body = Body::Cone(Cone {
-                    half_length,
-                    base_radius,
-                    top_radius,
-                });
-                simple(body, 0.0)
-            }
+            Self::Cylinder | Self::Cone => simple(self.turned(form, random), 0.0),
             Self::Segment | Self::Capsule => {
                 let radius = if self == Self::Segment {
                     0.0
@@ -194,6 +174,24 @@ impl Kind {
             }
             other => Arc::new(other.polytope(form, random)),
         }
+    }
+
+    /// A cylinder, or a cone of which half have an apex.
+    fn turned(self, form: &Form, random: &mut ChaCha8Rng) -> Body {
+        let mut length = |low: f64, high: f64| random.random_range(low..high);
+        let radius = length(0.1, 0.5) * form.stretch.x * form.scale;
+        let half_length = length(0.1, 0.6) * form.stretch.z * form.scale;
+        if self == Self::Cylinder {
+            return Body::Cylinder(Cylinder {
+                half_length,
+                radius,
+            });
+        }
+        Body::Cone(Cone {
+            half_length,
+            base_radius: radius,
+            top_radius: radius * length(-1.0, 1.0).max(0.0),
+        })
     }
 
     fn polytope(self, form: &Form, random: &mut ChaCha8Rng) -> Shape {

@@ -5,10 +5,10 @@ use pliant_spatial::Pose;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 
-use super::answer::Oracle;
 use super::families::{power, rotation};
 use super::kinds::unit;
 use super::shape::Shape;
+use super::truth::Oracle;
 
 /// Two shapes about to be placed.
 pub struct Placement<'s> {
