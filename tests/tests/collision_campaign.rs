@@ -5,12 +5,17 @@ use pliant_tests::collision::campaign::{Extent, Failure, run};
 use pliant_tests::collision::families::Family;
 use pliant_tests::collision::kinds::Kind;
 
-/// Families in which some pairs are still answered wrongly, by less than 1 % of the size.
-const UNSETTLED: [Family; 4] = [
+/// Families in which cylinders and cones are not yet always answered to 1e-9: where almost all directions are equally deep
+/// EPA's buffers end first, and on simplices far smaller than the coordinates rounding decides. [`Family::HugeAndTiny`] is
+/// open for all shapes: one witness in some thousand pairs.
+const UNSETTLED: [Family; 7] = [
     Family::Identical,
-    Family::Inside,
+    Family::Concentric,
     Family::Needles,
-    Family::HugeAndTiny,
+    Family::Plates,
+    Family::TenKilometres,
+    Family::FarFromOrigin,
+    Family::Doubled,
 ];
 
 #[test]
@@ -18,9 +23,11 @@ fn random_pairs_of_all_families_and_kinds_pass() {
     let report = run(Extent::SHORT);
     assert!(report.total(|row| row.pairs) > 50_000);
     assert!(report.total(|row| row.undecided) == 0);
-    let turned = |failure: &&Failure| failure.item.kinds.into_iter().any(Kind::is_turned);
-    let settled =
-        |failure: &&Failure| !UNSETTLED.contains(&failure.item.family) && !turned(failure);
+    let settled = |failure: &&Failure| {
+        let turned = failure.item.kinds.into_iter().any(Kind::is_turned);
+        let family = failure.item.family;
+        family != Family::HugeAndTiny && !(turned && UNSETTLED.contains(&family))
+    };
     let failures: Vec<&Failure> = report.failures.iter().filter(settled).collect();
     assert!(failures.is_empty(), "{failures:#?}");
     // Of cylinders and cones all that is certified holds: planes, witness points on the shapes, unit normals.

@@ -31,8 +31,8 @@ fn search_agrees_with_enumeration_on_polytopes() {
         Family::AxisAligned,
     ] {
         for (number, a) in kinds.into_iter().enumerate() {
-            for seed in 0..8 {
-                let b = kinds[(number + seed as usize) % kinds.len()];
+            for (shift, seed) in (0..8_u64).enumerate() {
+                let b = kinds[(number + shift) % kinds.len()];
                 let pair = family.pair([a, b], seed);
                 let [a, b] = [&*pair.shapes[0], &*pair.shapes[1]];
                 let truth = Scene::new(&a.core, &b.core, &pair.a_from_b)

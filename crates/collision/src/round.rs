@@ -161,7 +161,7 @@ mod tests {
             assert_eq!(corner_towards(3.0 * x, 3.0 * y), corner);
             let [next_x, next_y] = on_unit_circle((corner + 1) % TOP);
             let step = (next_x - x).hypot(next_y - y);
-            assert!(step <= 3.73e-9 && step >= 1.8e-9, "{corner}: {step}");
+            assert!((1.8e-9..=3.73e-9).contains(&step), "{corner}: {step}");
         }
     }
 

@@ -120,12 +120,11 @@ impl<'s> Search<'s> {
     fn likely(&self) -> impl Iterator<Item = DVec3> {
         let mut directions = Vec::new();
         for which in [0, 1] {
-            let own = match self.turned[which] {
-                Some(body) => body.directions(),
-                None => {
-                    let faces = self.shapes[which].core.triangles.iter();
-                    faces.map(|face| face.normal).collect()
-                }
+            let own = if let Some(body) = self.turned[which] {
+                body.directions()
+            } else {
+                let faces = self.shapes[which].core.triangles.iter();
+                faces.map(|face| face.normal).collect()
             };
             for direction in own.into_iter().filter_map(DVec3::try_normalize) {
                 let in_a = if which == 0 {

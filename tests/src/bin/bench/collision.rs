@@ -24,12 +24,14 @@ pub(crate) fn run(json: &Path) -> Result<()> {
         };
         missed += u32::from(!met);
         println!(
-            "{:<17} {:<11} {:<9} {:>9.0} ns of {:>6.0} allowed today: {}",
+            "{:<17} {:<11} {:<9} {:>9.0} ns of {:>6.0} allowed today, parry {:>7}: {}",
             row.bodies,
             row.state,
             row.mode,
             row.own.p50,
             target,
+            row.parry
+                .map_or_else(|| "–".to_owned(), |parry| format!("{:.0}", parry.p50)),
             if met { "met" } else { "MISSED" }
         );
     }
