@@ -11,9 +11,11 @@
 //! accelerations, and of the god-object of Zilles & Salisbury (1995), with a tool instead of a point.
 
 mod cell;
+mod feature;
 mod patch;
 mod report;
 mod shading;
+mod slab;
 mod start;
 
 use glam::{DQuat, DVec3};

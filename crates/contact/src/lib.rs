@@ -9,6 +9,7 @@ mod obstacle;
 mod paper;
 mod qp;
 mod share;
+mod touching;
 
 pub use constrained::{ConstrainedOutcome, ConstrainedTracker, MAX_CONTACTS, SKIN};
 pub use obstacle::{Contact, Obstacle};

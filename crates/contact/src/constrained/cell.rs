@@ -11,6 +11,7 @@ use pliant_spatial::Pose;
 
 use crate::Obstacle;
 use crate::qp::{ActiveSet, Plane};
+use crate::touching::touching_points;
 
 /// Gap kept between visual tool and obstacle [m]: large against rounding (1e-16 m), small against anything felt. At 1e-9 detection
 /// answers get refused; 1e-6 and 1e-8 give the same forces.
@@ -338,10 +339,17 @@ impl Cell {
         let obstacle = &bodies.obstacles[self.obstacle_of(pair)];
         let segment = &bodies.segments[self.segment_of(pair)];
         let object_from_visual = obstacle.world_from_object.inverse() * self.pose;
+        let gap = self.gap(pair);
         let entry = &mut self.pairs[pair];
         entry.leader = pair;
-        let cache = &mut entry.cache;
-        let Some(closest) = distance(&obstacle.shape, segment, &object_from_visual, cache) else {
+        let (shape, cache) = (&obstacle.shape, &mut entry.cache);
+        let kept = obstacle
+            .world_from_object
+            .inverse_transform_vector(entry.normal);
+        let near = touching_points(shape, segment, &object_from_visual, (kept, gap), cache)
+            .filter(|closest| closest.separation > 0.0);
+        let Some(closest) = near.or_else(|| distance(shape, segment, &object_from_visual, cache))
+        else {
             return;
         };
         let normal = obstacle.world_from_object.transform_vector(closest.normal);

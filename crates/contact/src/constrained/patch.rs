@@ -3,62 +3,7 @@
 //! Closest-point detection returns an arbitrary pair of points of two parallel faces; a torque taken from it jumps by
 //! 0.05–0.17 N·m while nothing moves. The centroid of the patch does not.
 
-use glam::{DVec2, DVec3};
-use pliant_mesh::ConvexMesh;
-
-/// Vertices this close to the supporting plane belong to the support polygon [m]: ten skins, so that a face held at the skin counts
-/// whole, and a 100 mm face tilted by 1e-5 rad counts as an edge.
-pub(crate) const SLAB: f64 = 1e-6;
-
-/// Collects the vertices of a convex mesh within a slab below its supporting plane, over the neighbour graph.
-#[derive(Clone, Debug)]
-pub(crate) struct SlabWalk {
-    stamp: Vec<u64>,
-    current: u64,
-    stack: Vec<u32>,
-}
-
-impl SlabWalk {
-    /// For meshes of up to `vertices` vertices.
-    pub(crate) fn new(vertices: usize) -> Self {
-        Self {
-            stamp: vec![0; vertices],
-            current: 0,
-            stack: Vec::with_capacity(vertices),
-        }
-    }
-
-    /// Visits every vertex whose height along `direction` (unit, mesh frame) is within `SLAB` of that of the support vertex `top`.
-    pub(crate) fn visit(
-        &mut self,
-        mesh: &ConvexMesh,
-        direction: DVec3,
-        top: u32,
-        mut found: impl FnMut(u32),
-    ) {
-        self.current += 1;
-        self.stack.clear();
-        let positions = mesh.positions();
-        let floor = direction.dot(positions[top as usize]) - SLAB;
-        self.stamp[top as usize] = self.current;
-        self.stack.push(top);
-        while let Some(vertex) = self.stack.pop() {
-            found(vertex);
-            for &next in mesh.neighbours(vertex) {
-                let inside = direction.dot(positions[next as usize]) >= floor;
-                if inside && self.stamp[next as usize] != self.current {
-                    self.stamp[next as usize] = self.current;
-                    self.stack.push(next);
-                }
-            }
-        }
-    }
-
-    /// The last walk visited `vertex`.
-    pub(crate) fn visited(&self, vertex: u32) -> bool {
-        self.stamp[vertex as usize] == self.current
-    }
-}
+use glam::DVec2;
 
 /// Scratch polygons in the contact plane; capacity is set once, so that a tick allocates nothing.
 #[derive(Clone, Debug)]

@@ -1,12 +1,14 @@
 //! What the pressing planes mean to the hand: contact points, features, shares of the force, moment about the handle.
 
 use glam::{DVec2, DVec3};
-use pliant_mesh::{FaceId, Feature, HalfEdgeMesh, VertexId};
+use pliant_mesh::Feature;
 
 use super::MAX_CONTACTS;
 use super::cell::{Bodies, Cell, segment_bound};
-use super::patch::{PatchPlane, SLAB, SlabWalk};
+use super::feature::feature_under;
+use super::patch::PatchPlane;
 use super::shading::Shading;
+use super::slab::{SLAB, SlabWalk};
 use crate::Contact;
 use crate::qp::ActiveSet;
 use crate::share::regularised_shares;
@@ -31,10 +33,11 @@ pub(crate) struct Pull {
 pub(crate) struct Reporter {
     /// Contact Element of each obstacle.
     elements: Vec<Option<u32>>,
+    /// Feature touched last, of each obstacle.
+    features: Vec<Option<Feature>>,
     shading: Vec<Option<Shading>>,
     walk: SlabWalk,
     plane: PatchPlane,
-    touched: Vec<u32>,
 }
 
 impl Reporter {
@@ -46,13 +49,13 @@ impl Reporter {
             .max()
             .unwrap_or(0);
         let segment_points = bodies.segments.iter().map(|s| s.positions().len());
-        let largest = segment_points.clone().max().unwrap_or(0);
+        let largest = segment_points.max().unwrap_or(0);
         Self {
             elements: vec![None; bodies.obstacles.len()],
+            features: vec![None; bodies.obstacles.len()],
             shading: bodies.obstacles.iter().map(Shading::new).collect(),
             walk: SlabWalk::new(obstacle_points.max(largest)),
-            plane: PatchPlane::new(obstacle_points, segment_points.sum()),
-            touched: Vec::with_capacity(obstacle_points),
+            plane: PatchPlane::new(SlabWalk::MOST, SlabWalk::MOST * bodies.segments.len()),
         }
     }
 
@@ -122,20 +125,20 @@ impl Reporter {
 
         let element = self.gather_tool(cell, bodies, pair, flat);
         let local_normal = obstacle.world_from_object.inverse_transform_vector(normal);
-        let (touched, outline) = (&mut self.touched, &mut self.plane.obstacle);
-        touched.clear();
-        outline.clear();
         let shape = &obstacle.shape;
-        self.walk
-            .visit(shape, local_normal, entry.obstacle_vertex, |vertex| {
-                let p = shape.positions()[vertex as usize];
-                touched.push(vertex);
-                outline.push(flat(obstacle.world_from_object.transform_point(p)));
-            });
+        let support = self.walk.visit(shape, local_normal, entry.obstacle_vertex);
+        let outline = &mut self.plane.obstacle;
+        outline.clear();
+        outline.extend(support.vertices.iter().map(|&vertex| {
+            let p = shape.positions()[vertex as usize];
+            flat(obstacle.world_from_object.transform_point(p))
+        }));
         let centre = self.plane.centroid().unwrap_or_else(|| flat(entry.witness));
         let point = origin + u * centre.x + v * centre.y;
         let local = obstacle.world_from_object.inverse_transform_point(point);
-        let feature = self.feature(shape.topology(), local_normal, local);
+        let last = self.features[object];
+        let feature = feature_under(shape.topology(), &support, (local_normal, local), last);
+        self.features[object] = Some(feature);
         Contact {
             object: index_u32(object),
             segment: element,
@@ -173,47 +176,14 @@ impl Reporter {
             }
             let outline = &mut self.plane.tool;
             let down = -pose.inverse_transform_vector(entry.normal);
-            self.walk.visit(segment, down, vertex, |vertex| {
+            let support = self.walk.visit(segment, down, vertex);
+            outline.extend(support.vertices.iter().map(|&vertex| {
                 let p = segment.positions()[vertex as usize];
-                outline.push(flat(pose.transform_point(p)));
-            });
+                flat(pose.transform_point(p))
+            }));
         }
         self.elements[object] = Some(element);
         element
-    }
-
-    /// The face, edge or vertex of the obstacle under `point`: what lies in the supporting plane, as the last walk left it.
-    fn feature(&self, mesh: &HalfEdgeMesh, normal: DVec3, point: DVec3) -> Feature {
-        let mut best_face: Option<(f64, FaceId)> = None;
-        let mut best_edge = None;
-        for &vertex in &self.touched {
-            for half_edge in mesh.outgoing(VertexId(vertex)) {
-                let edge = mesh.edge(half_edge);
-                let ends = mesh.edge_vertices(edge);
-                if !ends.iter().all(|v| self.walk.visited(v.0)) {
-                    continue;
-                }
-                let distance = segment_distance(ends.map(|v| mesh.position(v)), point);
-                if best_edge.is_none_or(|(least, _)| distance < least) {
-                    best_edge = Some((distance, edge));
-                }
-                let Some(face) = mesh.face(half_edge) else {
-                    continue;
-                };
-                let corners = mesh.face_vertices(face);
-                if corners.iter().all(|v| self.walk.visited(v.0)) {
-                    let depth = depth_inside(corners.map(|v| mesh.position(v)), normal, point);
-                    if best_face.is_none_or(|(most, _)| depth > most) {
-                        best_face = Some((depth, face));
-                    }
-                }
-            }
-        }
-        match (best_face, best_edge) {
-            (Some((_, face)), _) => Feature::Face(face),
-            (None, Some((_, edge))) => Feature::Edge(edge),
-            (None, None) => Feature::Vertex(VertexId(self.touched.first().copied().unwrap_or(0))),
-        }
     }
 
     /// `push` with its direction taken from interpolated normals where obstacles are shaded; its length is kept.
@@ -263,23 +233,6 @@ fn moment(contacts: &[Option<Contact>; MAX_CONTACTS], push: DVec3, haptic: DVec3
         moment += (centre / total - haptic).cross(push - carried);
     }
     moment
-}
-
-fn segment_distance([a, b]: [DVec3; 2], point: DVec3) -> f64 {
-    let along = b - a;
-    let t = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-    (point - a - along * t).length()
-}
-
-/// Distance of `point` to the nearest side of a triangle seen along `normal` [m]; negative outside.
-fn depth_inside(corners: [DVec3; 3], normal: DVec3, point: DVec3) -> f64 {
-    let mut least = f64::INFINITY;
-    for side in 0..3 {
-        let (a, b) = (corners[side], corners[(side + 1) % 3]);
-        let inward = normal.cross(b - a).normalize_or_zero();
-        least = least.min(inward.dot(point - a));
-    }
-    least
 }
 
 fn index_u32(index: usize) -> u32 {

@@ -8,6 +8,11 @@ use pliant_mesh::{ConvexMesh, VertexId};
 use pliant_spatial::Pose;
 
 use crate::Obstacle;
+use crate::touching::touching_points;
+
+/// Overlap over the radius of the object up to which the plane next to the last one tells the way out. The visual tool sinks in by what the
+/// surface rises in a hand's step, a tenth of this; whichever plane is found, leaving along it by its depth ends the overlap.
+const SHALLOW: f64 = 1e-3;
 
 /// Objects and tool of a tick.
 #[derive(Clone, Copy)]
@@ -60,6 +65,8 @@ struct Memory {
     cache: SimplexCache,
     /// Normal of the last query, object frame; zero before the first.
     normal: DVec3,
+    /// Gap [m] along that normal at the pose asked for last.
+    gap: f64,
     object_vertex: u32,
     segment_vertex: u32,
 }
@@ -170,22 +177,26 @@ impl Memory {
         let tool = segment.support(towards_object, self.segment_vertex);
         self.object_vertex = object.index;
         self.segment_vertex = tool.index;
-        let gap = (object_from_handle.transform_point(tool.point) - object.point).dot(self.normal);
-        gap > limit
+        self.gap = (object_from_handle.transform_point(tool.point) - object.point).dot(self.normal);
+        self.gap > limit
     }
 
+    /// Nearest points, after [`Memory::certifies`] at the same pose: near the kept planes where the bodies are in shallow contact, else
+    /// wherever they are.
     fn query(
         &mut self,
         obstacle: &Obstacle,
         segment: &ConvexMesh,
         object_from_handle: &Pose,
     ) -> ClosestPoints {
-        let closest = closest_points(
-            &obstacle.shape,
-            segment,
-            object_from_handle,
-            &mut self.cache,
-        );
+        let shape = &obstacle.shape;
+        let is_shallow = self.normal != DVec3::ZERO && self.gap > -SHALLOW * shape.radius();
+        let kept = (self.normal, self.gap);
+        let near = is_shallow
+            .then(|| touching_points(shape, segment, object_from_handle, kept, &mut self.cache));
+        let closest = near
+            .flatten()
+            .unwrap_or_else(|| closest_points(shape, segment, object_from_handle, &mut self.cache));
         self.normal = closest.normal;
         closest
     }
