@@ -33,40 +33,43 @@ impl TriangleMesh {
     }
 }
 
-/// One pass with an open-addressing table of vertex numbers, at most half full.
+/// For each position the first equal one; `None` if all differ.
 pub(super) fn first_at(positions: &[DVec3]) -> Option<Vec<u32>> {
+    let (first, distinct) = by_table(positions).unwrap_or_else(|| by_keyed_hash(positions));
+    (distinct < positions.len()).then_some(first)
+}
+
+/// One pass with an open-addressing table of vertex numbers, at most half full: the first vertex at the place of each, and
+/// how many places there are. `None` when too many positions collide.
+fn by_table(positions: &[DVec3]) -> Option<(Vec<u32>, usize)> {
     let mask = (2 * positions.len()).next_power_of_two() - 1;
     let mut table = vec![FREE; mask + 1];
     let mut first = Vec::with_capacity(positions.len());
     let mut steps_left = STEPS_PER_VERTEX * positions.len();
-    let mut repeats = false;
+    let mut distinct = 0;
     for (vertex, position) in (0..).zip(positions) {
         let mut slot = hash(*position) & mask;
         while table[slot] != FREE && positions[table[slot] as usize] != *position {
             slot = (slot + 1) & mask;
-            steps_left = match steps_left.checked_sub(1) {
-                Some(left) => left,
-                None => return first_at_by_keyed_hash(positions),
-            };
+            steps_left = steps_left.checked_sub(1)?;
         }
         if table[slot] == FREE {
             table[slot] = vertex;
-        } else {
-            repeats = true;
+            distinct += 1;
         }
         first.push(table[slot]);
     }
-    repeats.then_some(first)
+    Some((first, distinct))
 }
 
 /// The same with the standard library's hash, which no file can foresee; several times slower.
-fn first_at_by_keyed_hash(positions: &[DVec3]) -> Option<Vec<u32>> {
+fn by_keyed_hash(positions: &[DVec3]) -> (Vec<u32>, usize) {
     let mut known: HashMap<[u64; 3], u32> = HashMap::with_capacity(positions.len());
     let first: Vec<u32> = (0..)
         .zip(positions)
         .map(|(vertex, &position)| *known.entry(bits(position)).or_insert(vertex))
         .collect();
-    (known.len() < positions.len()).then_some(first)
+    (first, known.len())
 }
 
 /// Negative zero is zero.
@@ -89,7 +92,7 @@ fn hash(position: DVec3) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{bits, first_at, first_at_by_keyed_hash, hash};
+    use super::{bits, by_keyed_hash, by_table, first_at, hash};
     use glam::DVec3;
 
     #[test]
@@ -98,7 +101,7 @@ mod tests {
             .map(|i| DVec3::new(f64::from(i % 50), f64::from(i / 50), 0.0))
             .collect();
         assert_eq!(first_at(&positions), None);
-        assert_eq!(first_at_by_keyed_hash(&positions), None);
+        assert_eq!(by_table(&positions), Some(by_keyed_hash(&positions)));
         positions.push(DVec3::new(-0.0, 0.0, -0.0));
         positions.push(DVec3::new(49.0, 99.0, 0.0));
         let first = first_at(&positions).expect("repeats");
@@ -106,10 +109,11 @@ mod tests {
             (first[5000], first[5001], first[4999], first[17]),
             (0, 4999, 4999, 17)
         );
-        assert_eq!(first_at_by_keyed_hash(&positions), Some(first));
+        assert_eq!(by_keyed_hash(&positions), (first.clone(), 5000));
+        assert_eq!(by_table(&positions), Some((first, 5000)));
     }
 
-    /// Without the second table this takes 10¹⁰ steps.
+    /// The first table alone would take 10¹⁰ steps.
     #[test]
     fn positions_made_to_collide_cost_no_more_than_a_second_table() {
         let [x, y, _] = bits(DVec3::new(1.5, 2.5, 0.0));
@@ -120,6 +124,7 @@ mod tests {
             .filter(|p| p.is_finite() && hash(*p) == hash(DVec3::new(1.5, 2.5, 0.0)))
             .collect();
         assert!(colliding.len() > 100_000, "{}", colliding.len());
+        assert_eq!(by_table(&colliding), None);
         assert_eq!(first_at(&colliding), None);
     }
 }
