@@ -33,7 +33,7 @@ const COARSE: usize = 256;
 /// segment), whose gap along it is `gap` [m]; in the object's frame, as [`pliant_collision::closest_points`].
 ///
 /// `None` where the object is coarse, the gap wide, or no fixed point near. Overlap is allowed: then the plane is one whose depth no plane
-/// near it undercuts. Allocates nothing.
+/// near it undercuts (contact.15). Allocates nothing.
 pub(crate) fn touching_points(
     object: &ConvexMesh,
     segment: &ConvexMesh,
@@ -122,9 +122,11 @@ mod tests {
     }
 
     #[test]
-    fn shallow_overlap_has_the_depth_that_a_full_search_finds() {
+    fn shallow_overlap_has_the_depth_of_a_full_search_up_to_the_next_plane() {
+        // Of two planes next to each other both may have their foot on their own face; their depths differ by 1 µm · θ²/2.
         let answered = slide(-1e-6, |separation, _, between| {
-            assert!(separation.abs() < 1e-10, "depth off by {separation:e} m");
+            assert!(separation < 1e-13, "shallower by {separation:e} m");
+            assert!(separation > -1e-9, "deeper by {separation:e} m");
             assert!(between < 1e-12, "witnesses off by {between:e} m");
         });
         assert!(answered > 150, "{answered} of 400");
