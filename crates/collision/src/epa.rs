@@ -16,6 +16,7 @@
 use glam::DVec3;
 
 use crate::gjk::{GAP_TOLERANCE, Plane};
+use crate::rims;
 use crate::simplex::{NOISE, Simplex, cross_of, plane_of};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
@@ -70,7 +71,58 @@ where
     }
     let mut polytope = Polytope::<1024, 2048>::empty();
     polytope.start(&tetrahedron);
-    expand(difference, &mut polytope).plane
+    let large = expand(difference, &mut polytope);
+    if !large.full {
+        return large.plane;
+    }
+    deepest_of_rims(difference, &polytope, large.plane)
+}
+
+/// Most combinations of rims, edges and corners that are compared.
+const MOST_PLACES: usize = 64;
+
+/// Around an axis all directions are nearly equally deep and no number of faces tells which is the one. Of every
+/// combination of rims, edges and corners among the faces left open, the plane from which it settles lowest.
+#[inline(never)]
+fn deepest_of_rims<A, B, const VERTICES: usize, const FACES: usize>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    polytope: &Polytope<VERTICES, FACES>,
+    plane: Plane,
+) -> Plane
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut best = plane;
+    let Some(settled) = rims::settle(difference, &best) else {
+        return plane;
+    };
+    let mut separation = settled.separation;
+    let mut seen = [0; MOST_PLACES];
+    let mut count = 0;
+    for face in polytope.open_faces() {
+        let corners = polytope.corners(face);
+        let key = rims::key(difference, &corners);
+        if count == MOST_PLACES || seen[..count].contains(&key) {
+            continue;
+        }
+        seen[count] = key;
+        count += 1;
+        let (outward, _) = polytope.plane(face);
+        let reach = outward.dot(difference.support(outward, &corners[0]).point);
+        let candidate = Plane {
+            normal: -outward,
+            separation: -reach,
+            simplex: nearest_to(outward * reach, std::iter::once(corners)).1,
+        };
+        if let Some(settled) = rims::settle(difference, &candidate)
+            && settled.separation > separation
+        {
+            separation = settled.separation;
+            best = candidate;
+        }
+    }
+    best
 }
 
 /// The same, started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in

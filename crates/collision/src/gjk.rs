@@ -11,6 +11,7 @@ use glam::DVec3;
 use pliant_spatial::Pose;
 
 use crate::epa::{self, Surface};
+use crate::rims;
 use crate::segments::Segments;
 use crate::simplex::{NOISE, Nearest, Simplex};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
@@ -294,6 +295,9 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
+    if let Some(settled) = rims::settle(difference, plane) {
+        return settled;
+    }
     let mut core_a = DVec3::ZERO;
     let mut core_b_in_b = DVec3::ZERO;
     for (vertex, &weight) in plane.simplex.vertices().iter().zip(plane.simplex.weights()) {

@@ -7,6 +7,7 @@
 
 use glam::DVec3;
 
+use crate::rims::Rim;
 use crate::support::{SupportMap, SupportPoint};
 
 /// Corners of a rim on one of the four sides.
@@ -49,6 +50,17 @@ impl Cylinder {
     }
 }
 
+impl Cone {
+    /// Radius and height of the disc that a vertex is on [m].
+    fn disc(&self, index: u32) -> (f64, f64) {
+        if index & TOP == 0 {
+            (self.base_radius, -self.half_length)
+        } else {
+            (self.top_radius, self.half_length)
+        }
+    }
+}
+
 impl SupportMap for Cylinder {
     fn support(&self, direction: DVec3, start: u32) -> SupportPoint {
         self.as_cone().support(direction, start)
@@ -60,6 +72,10 @@ impl SupportMap for Cylinder {
 
     fn interior_point(&self) -> DVec3 {
         DVec3::ZERO
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        self.as_cone().rim(index)
     }
 }
 
@@ -95,17 +111,22 @@ impl SupportMap for Cone {
 
     /// Every index is a vertex: the highest bit tells the rim, the others the corner.
     fn vertex(&self, index: u32) -> DVec3 {
-        let (radius, z) = if index & TOP == 0 {
-            (self.base_radius, -self.half_length)
-        } else {
-            (self.top_radius, self.half_length)
-        };
+        let (radius, z) = self.disc(index);
         let [x, y] = on_unit_circle(index & !TOP);
         DVec3::new(radius * x, radius * y, z)
     }
 
     fn interior_point(&self) -> DVec3 {
         DVec3::ZERO
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        let (radius, z) = self.disc(index);
+        Some(Rim {
+            centre: DVec3::new(0.0, 0.0, z),
+            axis: DVec3::Z,
+            radius,
+        })
     }
 }
 

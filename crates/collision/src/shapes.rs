@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::rims::Rim;
 use crate::support::{SupportMap, SupportPoint};
 
 /// A single point [m]; with a radius around it, a sphere.
@@ -193,6 +194,10 @@ impl<S: SupportMap> SupportMap for Rounded<S> {
 
     fn core_segment(&self) -> Option<[DVec3; 2]> {
         self.core.core_segment()
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        self.core.rim(index)
     }
 
     fn core_face_count(&self) -> u32 {

@@ -160,22 +160,30 @@ impl Simplex {
         let weight_r = pq.cross(foot).dot(cross) / area_squared;
         let weight_p = 1.0 - weight_q - weight_r;
         // A foot on an edge to rounding belongs to the face: its normal stays exact at any height, the edge's does not.
-        let slack = -NOISE * longest / area_squared.sqrt();
-        if weight_p > slack && weight_q > slack && weight_r > slack {
+        let mut weights = [weight_p, weight_q, weight_r];
+        let beyond = weights.map(|weight| weight <= 0.0);
+        let inside = !beyond.contains(&true);
+        let sides = [longest, pr.length_squared(), pq.length_squared()];
+        let on_edge = |(weight, side): (f64, f64)| {
+            weight > 0.0 || weight * weight * area_squared < NOISE * NOISE * longest * side
+        };
+        if inside || weights.into_iter().zip(sides).all(on_edge) {
+            if !inside {
+                // On an edge its weights are those of the edge: in a needle the others are rounding, magnified.
+                let edge = self.nearest_edge([i, j, k], beyond);
+                weights = [i, j, k].map(|corner| edge.weight_of(corner));
+            }
             return Candidate {
                 nearest: Nearest {
                     normal: if height < 0.0 { -normal } else { normal },
                     distance: height.abs(),
                 },
                 corners: [i, j, k],
-                weights: [weight_p, weight_q, weight_r],
+                weights,
                 len: 3,
             };
         }
-        self.nearest_edge(
-            [i, j, k],
-            [weight_p <= 0.0, weight_q <= 0.0, weight_r <= 0.0],
-        )
+        self.nearest_edge([i, j, k], beyond)
     }
 
     /// The corners in the same order from the one opposite the longest edge on, where a needle's length spoils least.
@@ -216,13 +224,25 @@ impl Simplex {
             let cross = (q - p).cross(r - p);
             let height = cross.dot(p);
             let side = cross.dot(s - p);
-            let flat = side.abs() <= NOISE * scale * cross.length();
+            // Edges carry the rounding of the coordinates, short ones most of it.
+            let blur = NOISE * scale * (q - p).length().max((r - p).length());
+            let flat = side.abs() <= NOISE * scale * cross.length() + blur * (s - p).length()
+                || height.abs() <= blur * p.length();
             // The origin and the fourth vertex on different sides of the face, or nothing certain.
             if flat || side * height >= 0.0 {
                 best = Some(nearer(best, self.on_triangle(i, j, k)));
             }
         }
         best
+    }
+}
+
+impl Candidate {
+    fn weight_of(&self, corner: usize) -> f64 {
+        let slot = self.corners[..self.len]
+            .iter()
+            .position(|&own| own == corner);
+        slot.map_or(0.0, |slot| self.weights[slot])
     }
 }
 

@@ -7,6 +7,8 @@
 use glam::{DMat3, DVec3};
 use pliant_spatial::Pose;
 
+use crate::rims::Rim;
+
 /// A vertex of a core, found as the furthest along a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SupportPoint {
@@ -41,6 +43,11 @@ pub trait SupportMap {
         None
     }
 
+    /// The circle that a vertex is on, where the core has circles and stands for them by very many vertices.
+    fn rim(&self, _index: u32) -> Option<Rim> {
+        None
+    }
+
     /// How many faces [`SupportMap::core_face`] lists: all of the core's, or none where that would be many or is unknown.
     fn core_face_count(&self) -> u32 {
         0
@@ -71,6 +78,10 @@ impl<S: SupportMap + ?Sized> SupportMap for &S {
 
     fn core_segment(&self) -> Option<[DVec3; 2]> {
         (**self).core_segment()
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        (**self).rim(index)
     }
 
     fn core_face_count(&self) -> u32 {
@@ -162,8 +173,19 @@ impl<'s, A: SupportMap + ?Sized, B: SupportMap + ?Sized> MinkowskiDifference<'s,
         }
     }
 
+    /// A direction of A's frame in B's.
+    pub(crate) fn direction_in_b(&self, direction: DVec3) -> DVec3 {
+        self.b_from_a_rotation * direction
+    }
+
+    /// A direction of B's frame in A's.
+    pub(crate) fn direction_in_a(&self, direction: DVec3) -> DVec3 {
+        self.a_from_b_rotation * direction
+    }
+
+    /// The point of the difference made of a point of each shape in its own frame.
     #[inline]
-    fn difference(&self, point_in_a: DVec3, point_in_b: DVec3) -> DVec3 {
+    pub(crate) fn difference(&self, point_in_a: DVec3, point_in_b: DVec3) -> DVec3 {
         self.a_from_b_rotation * (point_in_b - self.origin_in_b) - (point_in_a - self.origin_in_a)
             + self.offset
     }

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3};
 use pliant_collision::{
-    ClosestPoints, Cone, Cuboid, Cylinder, Point, Rounded, SimplexCache, SupportMap, SupportPoint,
-    cast_ray, cast_shape, closest_points, distance, overlap,
+    ClosestPoints, Cone, Cuboid, Cylinder, Point, Rim, Rounded, SimplexCache, SupportMap,
+    SupportPoint, cast_ray, cast_shape, closest_points, distance, overlap,
 };
 use pliant_spatial::Pose;
 
@@ -78,6 +78,10 @@ impl<S: SupportMap> SupportMap for Counted<'_, S> {
 
     fn radius(&self) -> f64 {
         self.shape.radius()
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        self.shape.rim(index)
     }
 
     fn interior_point(&self) -> DVec3 {
@@ -357,6 +361,70 @@ fn coaxial_slender_bodies_end_in_bounded_effort() {
         }
     }
     assert!(most <= 2500, "{most}");
+}
+
+/// Offsets from a common axis of 1e-12 to 0.03, with azimuths and heights of all signs.
+fn beside_the_axis() -> impl Iterator<Item = DVec3> {
+    (0..120_u32).map(|i| {
+        let away = 10f64.powf(-12.0 + 0.088 * f64::from(i));
+        let azimuth = 2.4 * f64::from(i);
+        let height = (f64::from(i % 7) - 3.0) / 3.0;
+        DVec3::new(azimuth.cos(), azimuth.sin(), height) * away
+    })
+}
+
+/// The deepest answer must be the least over the azimuths, not the crest on which a search along the offset starts.
+#[test]
+fn cylinders_beside_a_common_axis_leave_away_from_the_offset() {
+    let body = cylinder(0.6, 0.25);
+    for offset in beside_the_axis() {
+        let across = offset.truncate().length();
+        check_queries(
+            &body,
+            &body,
+            &Pose::from_translation(offset),
+            [across - 0.5, 1e-4],
+        );
+        let ball = Rounded::sphere(DVec3::ZERO, 0.1);
+        check_queries(
+            &body,
+            &ball,
+            &Pose::from_translation(offset),
+            [across - 0.35, 1e-4],
+        );
+    }
+}
+
+/// Two circles of ways out, up and down: h(n) = 2 r c + offset · n on both, c the radial and s the axial part of a side's normal.
+#[test]
+fn cones_beside_a_common_axis_leave_on_the_shallower_side() {
+    let body = cone();
+    let (c, s) = (2.0 / 5f64.sqrt(), 1.0 / 5f64.sqrt());
+    for offset in beside_the_axis() {
+        let depth = 0.8 * c - c * offset.truncate().length() - s * offset.z.abs();
+        check_queries(
+            &body,
+            &body,
+            &Pose::from_translation(offset),
+            [-depth, 1e-4],
+        );
+    }
+}
+
+/// A rim is met in chords; the plane, the points and the height must come from the circle.
+#[test]
+fn crossed_rims_answer_to_the_last_digits() {
+    let (a, b) = (cylinder(0.5, 0.3), cylinder(0.4, 0.2));
+    for i in 0..400_u32 {
+        let turn = DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.3 + 0.011 * f64::from(i));
+        let away = DVec3::new(0.3, 0.2 - 0.001 * f64::from(i), 0.1 + 0.001 * f64::from(i));
+        let pose = Pose::new(turn, away * if i % 3 == 0 { 1.0 } else { 2.5 });
+        let found = closest_points(&a, &b, &pose, &mut SimplexCache::default());
+        let gap = gap(&a, &b, &pose, found.normal);
+        assert!((gap - found.separation).abs() < 4e-15, "{found:?}");
+        let oblique = found.witness_b - found.witness_a - found.normal * found.separation;
+        assert!(oblique.length() < 4e-15, "{oblique} {found:?}");
+    }
 }
 
 #[test]

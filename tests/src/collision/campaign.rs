@@ -32,14 +32,14 @@ impl Extent {
     pub const FULL: Self = Self {
         pairs_per_cell: 480,
         ellipsoid_pairs: 100,
-        turned_pairs: 24,
+        turned_pairs: 240,
     };
 
     /// Seconds.
     pub const SHORT: Self = Self {
         pairs_per_cell: 24,
         ellipsoid_pairs: 2,
-        turned_pairs: 1,
+        turned_pairs: 4,
     };
 }
 

@@ -171,6 +171,17 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         (height < f64::INFINITY).then_some(lowest)
     }
 
+    /// The faces that may still grow.
+    pub(crate) fn open_faces(&self) -> impl Iterator<Item = usize> {
+        (0..self.face_end).filter(|&slot| self.open[slot] < f64::INFINITY)
+    }
+
+    pub(crate) fn corners(&self, face: usize) -> [DifferencePoint; 3] {
+        self.faces[face]
+            .corners
+            .map(|corner| self.vertices[usize::from(corner)])
+    }
+
     /// Outward unit normal and signed height of a face.
     pub(crate) fn plane(&self, face: usize) -> (DVec3, f64) {
         (self.normals[face], self.heights[face])
