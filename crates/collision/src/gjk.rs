@@ -10,6 +10,7 @@
 use glam::DVec3;
 use pliant_spatial::Pose;
 
+use crate::boxes;
 use crate::epa::{self, Surface};
 use crate::rims;
 use crate::segments::Segments;
@@ -35,6 +36,7 @@ pub struct SimplexCache {
     len: u32,
     /// Where EPA ended, if the last query did.
     surface: Surface,
+    of_boxes: boxes::Feature,
 }
 
 /// Nearest points of two shapes, or deepest ones in overlap; everything in A's frame.
@@ -95,6 +97,16 @@ where
     if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
         return between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
     }
+    if let (Some(of_a), Some(of_b)) = (a.core_box(), b.core_box())
+        && let Some(found) = boxes::closest(
+            [of_a, of_b],
+            a_from_b,
+            [a.radius(), b.radius()],
+            &mut cache.of_boxes,
+        )
+    {
+        return found;
+    }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     if !cache.surface.is_empty()
         && let Some(plane) = epa::shallowest_from(&mut cache.surface, &difference)
@@ -132,6 +144,16 @@ where
         let closest = between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
         return (closest.separation > 0.0).then_some(closest);
     }
+    if let (Some(of_a), Some(of_b)) = (a.core_box(), b.core_box())
+        && let Some(found) = boxes::closest(
+            [of_a, of_b],
+            a_from_b,
+            [a.radius(), b.radius()],
+            &mut cache.of_boxes,
+        )
+    {
+        return (found.separation > 0.0).then_some(found);
+    }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     match search(&difference, cache, Goal::Distance) {
         Exit::Apart(plane) => {
@@ -155,6 +177,11 @@ where
     let radii = a.radius() + b.radius();
     if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
         return between_segments(of_a, of_b, a_from_b, [radii, 0.0]).separation <= 0.0;
+    }
+    if let (Some(of_a), Some(of_b)) = (a.core_box(), b.core_box())
+        && let Some(found) = boxes::overlap([of_a, of_b], a_from_b, radii, &mut cache.of_boxes)
+    {
+        return found;
     }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
     match search(&difference, cache, Goal::Above(radii)) {

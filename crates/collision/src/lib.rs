@@ -10,6 +10,7 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod boxes;
 mod bvh;
 mod cast;
 mod climb;

@@ -145,6 +145,10 @@ impl SupportMap for Cuboid {
         DVec3::ZERO
     }
 
+    fn core_box(&self) -> Option<DVec3> {
+        Some(self.half)
+    }
+
     fn core_face_count(&self) -> u32 {
         6
     }
@@ -198,6 +202,10 @@ impl<S: SupportMap> SupportMap for Rounded<S> {
 
     fn rim(&self, index: u32) -> Option<Rim> {
         self.core.rim(index)
+    }
+
+    fn core_box(&self) -> Option<DVec3> {
+        self.core.core_box()
     }
 
     fn core_face_count(&self) -> u32 {

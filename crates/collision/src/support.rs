@@ -48,6 +48,11 @@ pub trait SupportMap {
         None
     }
 
+    /// Half lengths of the sides [m] where the core is a box about the origin, its sides along the axes: allows closed forms.
+    fn core_box(&self) -> Option<DVec3> {
+        None
+    }
+
     /// How many faces [`SupportMap::core_face`] lists: all of the core's, or none where that would be many or is unknown.
     fn core_face_count(&self) -> u32 {
         0
@@ -82,6 +87,10 @@ impl<S: SupportMap + ?Sized> SupportMap for &S {
 
     fn rim(&self, index: u32) -> Option<Rim> {
         (**self).rim(index)
+    }
+
+    fn core_box(&self) -> Option<DVec3> {
+        (**self).core_box()
     }
 
     fn core_face_count(&self) -> u32 {
