@@ -7,10 +7,16 @@
 //! merges faces to survive rounding, nothing is needed here. A tolerance enters only in the choice of points:
 //! those that stick out by no more than [`SKIN`] are left out, so noise in flat sides makes no slivers.
 //!
+//! Faces are taken in the order in which they came to be, so that the hull grows finer everywhere at once. Finished one
+//! region after the other, a fine rim faces coarse rest through fans of thousands of slivers, and each further point of a
+//! flat ring replaces such a fan.
+//!
 //! Two libraries were measured on 13 point sets before this was written. `quickhull` 0.1.0 works in `f32`: on
 //! the 27,461 points of a tooth its hull leaves points outside by 47 % of the size, it returns triangles
 //! without area on a tube and accepts collinear and coincident points. `chull` 0.2.4 takes 0.9 to 1.2 s for
 //! 6,338 points on an ellipsoid and leaves points of the tooth 8e-5 outside.
+
+use std::collections::VecDeque;
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -68,12 +74,7 @@ pub fn convex_hull(points: &[DVec3]) -> Result<TriangleMesh, HullError> {
     }
     // Only for its checks of finite positions and of the count.
     TriangleMesh::new(points.to_vec(), vec![[0, 1, 2]])?;
-    let size = Aabb::from_points(points).diagonal();
-    let simplex = first_simplex(points, size)?;
-    let mut hull = Hull::new(points, simplex, SKIN * size);
-    while let Some(face) = hull.pending.pop() {
-        hull.take_farthest(face);
-    }
+    let hull = Hull::around(points)?;
     let triangles: Vec<[u32; 3]> = hull
         .faces
         .iter()
@@ -97,8 +98,8 @@ struct Face {
 struct Hull<'a> {
     points: &'a [DVec3],
     faces: Vec<Face>,
-    /// Faces that may have points outside.
-    pending: Vec<u32>,
+    /// Faces that may have points outside, oldest first.
+    pending: VecDeque<u32>,
     skin: f64,
 }
 
@@ -111,11 +112,22 @@ struct HorizonEdge {
 }
 
 impl<'a> Hull<'a> {
+    /// The whole hull, dead faces included.
+    fn around(points: &'a [DVec3]) -> Result<Self, HullError> {
+        let size = Aabb::from_points(points).diagonal();
+        let simplex = first_simplex(points, size)?;
+        let mut hull = Hull::new(points, simplex, SKIN * size);
+        while let Some(face) = hull.pending.pop_front() {
+            hull.take_farthest(face);
+        }
+        Ok(hull)
+    }
+
     fn new(points: &'a [DVec3], simplex: [u32; 4], skin: f64) -> Self {
         let mut hull = Hull {
             points,
             faces: Vec::new(),
-            pending: Vec::new(),
+            pending: VecDeque::new(),
             skin,
         };
         let [a, b, c, d] = simplex;
@@ -330,4 +342,36 @@ fn corner_of(points: &[DVec3], ties: impl Iterator<Item = u32>, base: DVec3) -> 
         }
     }
     best.map(|(i, _)| i)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Hull;
+    use glam::{DQuat, DVec2, DVec3};
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn flat_rings_make_few_faces_more_than_they_keep() {
+        const COUNT: u32 = 8000;
+        let on_circle = |i: u32, of: u32| DVec2::from_angle(TAU * f64::from(i) / f64::from(of));
+        let turn = DQuat::from_rotation_y(0.7);
+        let disc = |i: u32| on_circle(i / 2, COUNT / 2).extend(1e-3 * f64::from(i % 2));
+        let wave = |i: u32| {
+            let around = on_circle(i, COUNT);
+            around.extend(1e-3 * around.x * around.y)
+        };
+        let shapes: [&dyn Fn(u32) -> DVec3; 3] = [&disc, &|i| turn * disc(i), &wave];
+        for shape in shapes {
+            let points: Vec<DVec3> = (0..COUNT).map(shape).collect();
+            let hull = Hull::around(&points).unwrap();
+            // Every corner is kept: 2 n - 4 faces. Some 4 n are made in all; hundreds of n finishing region by region.
+            let kept = hull.faces.iter().filter(|f| f.alive).count();
+            assert_eq!(kept, 2 * COUNT as usize - 4);
+            let made = hull.faces.len();
+            assert!(
+                made < 12 * COUNT as usize,
+                "{made} faces for {COUNT} points"
+            );
+        }
+    }
 }
