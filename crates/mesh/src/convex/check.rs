@@ -8,15 +8,15 @@
 //! tested ([`planes`]).
 //! One winding around the centroid excludes branched surfaces that satisfy all planes.
 
-use std::f64::consts::PI;
+use glam::DVec3;
 
-use glam::{DMat3, DVec3};
-
+use self::rounded::Rounded;
 use super::ConvexityError;
 use crate::triangle_mesh::altitude;
 use crate::{EdgeId, FaceId, HalfEdgeMesh, TriangleMesh, VertexId};
 
 mod planes;
+mod rounded;
 
 /// Volume over area, relative to the size, below which a mesh has no inside: rounding then decides the sign
 /// of the volume.
@@ -32,15 +32,16 @@ pub(super) fn check(
     mesh: &TriangleMesh,
     relative_tolerance: f64,
 ) -> Result<DVec3, ConvexityError> {
-    check_solid(topology, mesh)?;
+    check_pieces(topology, mesh)?;
+    let rounded = Rounded::new(mesh);
+    let centroid = check_inside(mesh, &rounded)?;
     let size = mesh.bounds().diagonal();
     let tolerance = relative_tolerance * size;
     let thick: Vec<bool> = faces_of(topology)
         .map(|f| altitude(topology.face_corners(f)) > tolerance)
         .collect();
     let concave_angle = check_edges(topology, &thick, tolerance)?;
-    let centroid = centroid_of(mesh);
-    check_winding(mesh, centroid)?;
+    check_winding(&rounded, centroid)?;
     let nearest = faces_of(topology)
         .filter(|f| thick[f.index()])
         .map(|f| {
@@ -60,8 +61,8 @@ fn faces_of(topology: &HalfEdgeMesh) -> impl Iterator<Item = FaceId> {
     (0..).take(topology.face_count()).map(FaceId)
 }
 
-/// Closed, in one piece, with a positive volume.
-fn check_solid(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), ConvexityError> {
+/// Closed, and in one piece.
+fn check_pieces(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), ConvexityError> {
     if let Some(&border) = topology.boundary_loops().first() {
         let ends = topology.edge_vertices(topology.edge(border));
         return Err(ConvexityError::Open {
@@ -73,7 +74,12 @@ fn check_solid(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), Conve
     if shells != 1 {
         return Err(ConvexityError::Shells { shells });
     }
-    let volume = mesh.signed_volume();
+    Ok(())
+}
+
+/// The centroid [m] of a mesh with a positive volume.
+fn check_inside(mesh: &TriangleMesh, rounded: &Rounded<'_>) -> Result<DVec3, ConvexityError> {
+    let (volume, centroid) = rounded.volume_and_centroid();
     let size = mesh.bounds().diagonal();
     let thickness = volume.abs() / mesh.surface_area();
     if thickness.is_nan() || thickness <= FLAT * size {
@@ -82,7 +88,7 @@ fn check_solid(topology: &HalfEdgeMesh, mesh: &TriangleMesh) -> Result<(), Conve
     if volume < 0.0 {
         return Err(ConvexityError::InsideOut { volume });
     }
-    Ok(())
+    Ok(centroid)
 }
 
 /// Refuses the most concave edge; otherwise the sum of all concave angles [rad] (mesh.9). Infinite where faces too
@@ -132,66 +138,14 @@ fn check_edges(
     })
 }
 
-/// Centroid of the enclosed volume [m].
-fn centroid_of(mesh: &TriangleMesh) -> DVec3 {
-    let origin = mesh.bounds().center();
-    let (mut volume, mut moment) = (0.0, DVec3::ZERO);
-    for i in (0..).take(mesh.triangles().len()) {
-        let [a, b, c] = mesh.corners(i).map(|p| p - origin);
-        let six_fold = a.dot(b.cross(c));
-        volume += six_fold;
-        moment += six_fold * (a + b + c);
-    }
-    origin + moment / (4.0 * volume)
-}
-
-/// The solid angles of all triangles seen from `center` add up to one full turn (mesh.11) (A. van Oosterom and
-/// J. Strackee, "The solid angle of a plane triangle", IEEE TBME 30(2), 1983, eq. 8).
-fn check_winding(mesh: &TriangleMesh, center: DVec3) -> Result<(), ConvexityError> {
-    let round = rounding(mesh.positions(), center);
-    let total: f64 = (0..)
-        .take(mesh.triangles().len())
-        .map(|i| {
-            let [a, b, c] = mesh.corners(i).map(|p| round * (p - center));
-            let (la, lb, lc) = (a.length(), b.length(), c.length());
-            let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-            2.0 * a.dot(b.cross(c)).atan2(below)
-        })
-        .sum();
-    let turns = total / (4.0 * PI);
+/// One full turn around the centroid, no branches (mesh.11).
+fn check_winding(rounded: &Rounded<'_>, center: DVec3) -> Result<(), ConvexityError> {
+    let turns = rounded.turns(center);
     if (turns - 1.0).abs() < 1e-3 {
         Ok(())
     } else {
         Err(ConvexityError::Winding { turns })
     }
-}
-
-/// The linear map that brings a needle or a plate around `center` to the same extent in three directions. It leaves the
-/// number of turns as it is, where the angles of a needle 10⁻⁷ as thick as long would be lost in rounding.
-fn rounding(positions: &[DVec3], center: DVec3) -> DMat3 {
-    let farthest = |measure: &dyn Fn(DVec3) -> DVec3| {
-        let longer = |best: DVec3, &p: &DVec3| {
-            let one = measure(p - center);
-            if one.length_squared() > best.length_squared() {
-                one
-            } else {
-                best
-            }
-        };
-        positions.iter().fold(DVec3::ZERO, longer)
-    };
-    let long = farthest(&|p| p);
-    let along = long.normalize_or(DVec3::X);
-    let wide = farthest(&|p| p - p.dot(along) * along);
-    let wide = wide - wide.dot(along) * along;
-    let across = wide.normalize_or(along.any_orthonormal_vector());
-    let third = along.cross(across);
-    let thick = positions
-        .iter()
-        .map(|p| third.dot(p - center).abs())
-        .fold(f64::MIN_POSITIVE, f64::max);
-    let extents = DVec3::new(long.length(), wide.length(), thick).max(DVec3::splat(1e-150));
-    DMat3::from_diagonal(extents.recip()) * DMat3::from_cols(along, across, third).transpose()
 }
 
 /// Refuses the highest vertex over any face plane (mesh.8).
@@ -216,7 +170,7 @@ mod tests {
     use crate::{
         CONVEXITY_TOLERANCE, ConvexMesh, ConvexityError, HalfEdgeMesh, TriangleMesh, generate,
     };
-    use glam::{DQuat, DVec3, EulerRot};
+    use glam::{DQuat, DVec3, EulerRot, Vec3Swizzles};
     use pliant_spatial::Pose;
     use std::f64::consts::TAU;
 
@@ -339,6 +293,29 @@ mod tests {
                 ConvexMesh::hull(shape.positions()).unwrap();
             }
         }
+    }
+
+    #[test]
+    fn needles_of_few_sectors_are_solids_until_they_are_flat() {
+        // Turned and far from the origin by their own length, where rounding is an even coat of 1e-16.
+        let turn = Pose::new(DQuat::from_euler(EulerRot::XYZ, 0.3, 0.8, -0.4), DVec3::ONE);
+        for (sectors, radius) in [(5, 1e-8), (3, 1e-9), (5, 3e-10), (7, 1e-10), (12, 1e-10)] {
+            for needle in [
+                generate::cylinder(radius, 0.2, sectors).unwrap(),
+                generate::capsule(radius, 0.2, sectors, 4).unwrap(),
+                generate::cone([radius, 0.0], 0.2, sectors).unwrap(),
+            ] {
+                let lying = ConvexMesh::from_triangles(&needle).unwrap();
+                let turned = ConvexMesh::from_triangles(&needle.transformed(&turn)).unwrap();
+                let off = turn.transform_point(lying.centroid()) - turned.centroid();
+                assert!(off.length() < 1e-5, "{sectors} {radius}: {off}");
+                // Off the axis by less than the needle is thick.
+                assert!(lying.centroid().yz().length() < 0.1 * radius);
+            }
+        }
+        let flat = generate::cylinder(1e-12, 0.2, 5).unwrap();
+        let error = ConvexMesh::from_triangles(&flat.transformed(&turn)).unwrap_err();
+        assert!(matches!(error, ConvexityError::Flat { .. }), "{error}");
     }
 
     #[test]
