@@ -14,7 +14,7 @@ pub enum DeviceError {
     },
     /// The device is there but did not answer in time.
     #[error(
-        "device `{device}` sent nothing for {waited_s} s; check its cable and power, then re-arm it"
+        "device `{device}` sent nothing for {waited_s:?} s; check its cable and power, then re-arm it"
     )]
     TimedOut {
         /// Name of the device.
@@ -50,7 +50,7 @@ pub enum DeviceError {
     },
     /// The commanded wrench cannot be rendered.
     #[error(
-        "device `{device}` was commanded a wrench that is not finite: force ({}, {}, {}) N, torque ({}, {}, {}) N·m; \
+        "device `{device}` was commanded a wrench that is not finite: force ({:?}, {:?}, {:?}) N, torque ({:?}, {:?}, {:?}) N·m; \
          the command before it stays, send a finite one",
         wrench.force.x, wrench.force.y, wrench.force.z, wrench.torque.x, wrench.torque.y, wrench.torque.z
     )]
@@ -61,7 +61,7 @@ pub enum DeviceError {
         wrench: pliant_spatial::Wrench,
     },
     /// A simulated device was asked for a time that is none.
-    #[error("device `{device}` was read at {time_s} s; read it at a finite time")]
+    #[error("device `{device}` was read at {time_s:?} s; read it at a finite time")]
     InvalidTime {
         /// Name of the device.
         device: String,

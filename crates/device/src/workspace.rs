@@ -24,7 +24,7 @@ pub struct WorkspaceMap {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum WorkspaceMapError {
     /// A scale is zero, negative or not finite.
-    #[error("workspace map: {name} is {value}; it must be a finite number above zero")]
+    #[error("workspace map: {name} is {value:?}; it must be a finite number above zero")]
     Scale {
         /// `position_scale` or `force_scale`.
         name: &'static str,
@@ -34,7 +34,7 @@ pub enum WorkspaceMapError {
     /// The placement is not finite or its quaternion is not of unit length.
     #[error(
         "workspace map: world_from_device must have finite numbers and a unit quaternion; \
-         its quaternion (x, y, z, w) = ({}, {}, {}, {}) has norm {}, its translation is ({}, {}, {}) m",
+         its quaternion (x, y, z, w) = ({:?}, {:?}, {:?}, {:?}) has norm {:?}, its translation is ({:?}, {:?}, {:?}) m",
         pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w, pose.rotation.length(),
         pose.translation.x, pose.translation.y, pose.translation.z
     )]

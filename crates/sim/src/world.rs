@@ -80,7 +80,7 @@ pub enum WorldError {
     #[error("the tool has no segments; give it at least one convex segment")]
     NoSegments,
     /// A coupling constant is out of range.
-    #[error("coupling {name} is {value}; {expected}")]
+    #[error("coupling {name} is {value:?}; {expected}")]
     Coupling {
         /// Name of the constant.
         name: &'static str,
@@ -97,7 +97,7 @@ pub enum WorldError {
     },
     /// A shading threshold is out of range.
     #[error(
-        "object {object:?} has a shading threshold of {value} rad; expected more than 0 and at most π"
+        "object {object:?} has a shading threshold of {value:?} rad; expected more than 0 and at most π"
     )]
     Shading {
         /// Name of the object.
@@ -106,7 +106,7 @@ pub enum WorldError {
         value: f64,
     },
     /// A parameter of the paper's method is out of range.
-    #[error("paper method: {name} is {value}; {expected}")]
+    #[error("paper method: {name} is {value:?}; {expected}")]
     Paper {
         /// Name of the parameter.
         name: &'static str,

@@ -196,3 +196,21 @@ fn tools_objects_and_methods_out_of_range_are_refused() {
     let error = refuse(|d| d.objects[0].world_from_object.rotation = DQuat::IDENTITY * 2.0);
     assert!(error.to_string().contains("\"table\""), "{error}");
 }
+
+#[test]
+fn refused_numbers_are_printed_with_exponents() {
+    for (refused, written) in [(1e-300, "is 1e-300;"), (1e300, "is 1e300;")] {
+        let error = refuse(|d| d.coupling.angular_stiffness = refused).to_string();
+        assert!(error.contains(written) && error.len() < 160, "{error}");
+        let error = refuse(|d| d.coupling.linear_damping = -refused).to_string();
+        assert!(error.contains(&written.replace("is ", "is -")), "{error}");
+    }
+    let error = refuse(|d| d.objects[0].shading_threshold = Some(1e300)).to_string();
+    assert!(error.contains("of 1e300 rad"), "{error}");
+    let parameters = PaperParameters {
+        edge_width: -1e-300,
+        detection_interval: 1,
+    };
+    let error = refuse(|d| d.method = Method::Paper(parameters)).to_string();
+    assert!(error.contains("is -1e-300;"), "{error}");
+}

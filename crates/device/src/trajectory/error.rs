@@ -12,7 +12,7 @@ pub enum TrajectoryError {
     Empty,
     /// A number is NaN or infinite.
     #[error(
-        "trajectory sample {row} (counted from 0): {quantity} is {value}; give a finite number"
+        "trajectory sample {row} (counted from 0): {quantity} is {value:?}; give a finite number"
     )]
     NotFinite {
         /// Sample.
@@ -24,7 +24,7 @@ pub enum TrajectoryError {
     },
     /// A number is so large that its unit cannot be right.
     #[error(
-        "trajectory sample {row} (counted from 0): {quantity} is {value}, beyond ±{limit}; \
+        "trajectory sample {row} (counted from 0): {quantity} is {value:?}, beyond ±{limit}; \
          times are in seconds and positions in metres"
     )]
     OutOfRange {
@@ -39,7 +39,7 @@ pub enum TrajectoryError {
     },
     /// A time lies before that of the sample before it.
     #[error(
-        "trajectory sample {row} (counted from 0): time {time} s is before {previous} s of the sample before it; \
+        "trajectory sample {row} (counted from 0): time {time:?} s is before {previous:?} s of the sample before it; \
          sort the samples by time"
     )]
     OutOfOrder {
@@ -52,7 +52,7 @@ pub enum TrajectoryError {
     },
     /// A quaternion is no rotation.
     #[error(
-        "trajectory sample {row} (counted from 0): the quaternion has norm {norm}, a rotation has 1 (within {}); \
+        "trajectory sample {row} (counted from 0): the quaternion has norm {norm:?}, a rotation has 1 (within {}); \
          check the column order qx, qy, qz, qw",
         super::QUATERNION_TOLERANCE
     )]
@@ -63,7 +63,7 @@ pub enum TrajectoryError {
         norm: f64,
     },
     /// A scale or speed is zero, negative or not finite.
-    #[error("trajectory {name} is {value}; it must be a finite number above zero")]
+    #[error("trajectory {name} is {value:?}; it must be a finite number above zero")]
     NotPositive {
         /// `scale` or `speed`.
         name: &'static str,
@@ -71,15 +71,17 @@ pub enum TrajectoryError {
         value: f64,
     },
     /// A speed so extreme that the times of two samples would coincide or leave the range of times.
-    #[error("trajectory speed {speed} leaves no usable times between samples; choose one nearer 1")]
+    #[error(
+        "trajectory speed {speed:?} leaves no usable times between samples; choose one nearer 1"
+    )]
     Speed {
         /// The speed as given.
         speed: f64,
     },
     /// The placement given is not a placement.
     #[error(
-        "trajectory placement must have finite numbers and a unit quaternion; the norm of its quaternion is {}, its \
-         translation is ({}, {}, {}) m",
+        "trajectory placement must have finite numbers and a unit quaternion; the norm of its quaternion is {:?}, its \
+         translation is ({:?}, {:?}, {:?}) m",
         pose.rotation.length(), pose.translation.x, pose.translation.y, pose.translation.z
     )]
     Placement {

@@ -376,3 +376,24 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn refused_numbers_are_printed_with_exponents() {
+    let refused = |samples: &[TimedPose]| Trajectory::new(samples).unwrap_err().to_string();
+    let far = refused(&[at(0.0, DVec3::X * 1e300)]);
+    assert!(far.contains("is 1e300, beyond"), "{far}");
+    let late = refused(&[at(1e-300, DVec3::ZERO), at(-1e-300, DVec3::ZERO)]);
+    assert!(late.contains("time -1e-300 s is before 1e-300 s"), "{late}");
+    let mut turned = at(0.0, DVec3::ZERO);
+    turned.pose.rotation = DQuat::from_xyzw(0.0, 0.0, 0.0, 1e-100);
+    let turned = refused(&[turned]);
+    assert!(turned.contains("norm 1e-100,"), "{turned}");
+    let slow = along_x(&[(0.0, 0.0), (1.0, 1.0)]).retimed(-1e-300);
+    let slow = slow.unwrap_err().to_string();
+    assert!(slow.contains("is -1e-300;"), "{slow}");
+    let fast = TrajectoryError::Speed { speed: 1e300 }.to_string();
+    assert!(fast.contains("speed 1e300 leaves"), "{fast}");
+    let pose = Pose::from_translation(DVec3::new(1e300, -1e-300, 0.0));
+    let placed = TrajectoryError::Placement { pose }.to_string();
+    assert!(placed.contains("(1e300, -1e-300, 0.0) m"), "{placed}");
+}
