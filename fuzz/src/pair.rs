@@ -12,7 +12,7 @@ use pliant_spatial::Pose;
 use crate::mesh::judge_hull;
 
 /// Largest error of any answer, relative to the largest coordinate at hand.
-const TOLERANCE: f64 = 1e-9;
+pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// Points of one shape: enough for every degeneracy, few enough for thousands of runs a second.
 const MOST_POINTS: usize = 16;
@@ -30,7 +30,7 @@ pub struct Pair {
 }
 
 #[derive(Arbitrary, Debug)]
-enum Description {
+pub(crate) enum Description {
     Points(Vec<[Number; 3]>),
     Hull(Vec<[Number; 3]>),
     Box([Number; 3]),
@@ -38,13 +38,13 @@ enum Description {
 }
 
 #[derive(Arbitrary, Debug)]
-struct Placement {
+pub(crate) struct Placement {
     turn: Turn,
     offset: [Number; 3],
 }
 
 #[derive(Arbitrary, Debug)]
-enum Turn {
+pub(crate) enum Turn {
     None,
     /// Parallel but for rounding.
     Hair([i8; 3]),
@@ -54,7 +54,7 @@ enum Turn {
 
 /// A coordinate: on a coarse grid, where ties abound, beside it by rounding, or anywhere in between.
 #[derive(Arbitrary, Clone, Copy, Debug)]
-enum Number {
+pub(crate) enum Number {
     Grid(i8),
     Beside(i8, i8),
     Fine(i32),
@@ -62,7 +62,7 @@ enum Number {
 }
 
 /// A shape of any kind.
-enum Shape {
+pub(crate) enum Shape {
     Points(Vec<DVec3>),
     Hull(ConvexMesh),
     Box(Cuboid),
@@ -71,7 +71,7 @@ enum Shape {
 
 impl Number {
     /// In [-4, 4].
-    fn get(self) -> f64 {
+    pub(crate) fn get(self) -> f64 {
         match self {
             Self::Grid(value) => f64::from(value) / 32.0,
             Self::Beside(value, by) => {
@@ -83,11 +83,11 @@ impl Number {
     }
 }
 
-fn vector(numbers: [Number; 3]) -> DVec3 {
+pub(crate) fn vector(numbers: [Number; 3]) -> DVec3 {
     DVec3::from(numbers.map(Number::get))
 }
 
-fn points(numbers: &[[Number; 3]], size: f64) -> Vec<DVec3> {
+pub(crate) fn points(numbers: &[[Number; 3]], size: f64) -> Vec<DVec3> {
     numbers
         .iter()
         .take(MOST_POINTS)
@@ -97,7 +97,7 @@ fn points(numbers: &[[Number; 3]], size: f64) -> Vec<DVec3> {
 
 impl Description {
     /// The shape; hulls without a volume stay sets of points.
-    fn shape(&self, size: f64) -> Shape {
+    pub(crate) fn shape(&self, size: f64) -> Shape {
         match self {
             Self::Points(numbers) => Shape::Points(points(numbers, size)),
             Self::Hull(numbers) => {
@@ -119,7 +119,7 @@ impl Description {
 }
 
 impl Placement {
-    fn pose(&self, size: f64) -> Pose {
+    pub(crate) fn pose(&self, size: f64) -> Pose {
         let rotation = match self.turn {
             Turn::None => DQuat::IDENTITY,
             Turn::Hair(axis) => DQuat::from_scaled_axis(DVec3::from(axis.map(f64::from)) * 1e-17),
@@ -183,14 +183,15 @@ pub fn judge_pair(pair: &Pair) {
     );
 }
 
+/// The largest coordinate of a shape in its own frame.
+pub(crate) fn reach(shape: &Shape) -> f64 {
+    let furthest = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+    let furthest = furthest.map(|axis| shape.support(axis, 0).point.abs().max_element());
+    furthest.fold(shape.radius(), f64::max)
+}
+
 /// The largest coordinate that occurs in the query.
 fn coordinates(a: &Shape, b: &Shape, a_from_b: &Pose) -> f64 {
-    let reach = |shape: &Shape| {
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-        let furthest = axes.into_iter().flat_map(|axis| [axis, -axis]);
-        let furthest = furthest.map(|axis| shape.support(axis, 0).point.abs().max_element());
-        furthest.fold(shape.radius(), f64::max)
-    };
     reach(a) + reach(b) + a_from_b.translation.abs().max_element()
 }
 
@@ -239,6 +240,7 @@ fn judge_placement(
             (separation - cold.separation).abs() <= error,
             "warm {closest:?}, cold {cold:?}"
         );
+        judge_shallowest(a, b, a_from_b, &closest);
     }
     let apart = distance(a, b, a_from_b, warm);
     if cold.separation.abs() > error {
@@ -257,6 +259,42 @@ fn judge_placement(
         );
     }
     cold
+}
+
+/// No direction separates the shapes by more than the separation, which is thus the distance or the least depth; and no
+/// witness sticks out of its shape.
+fn judge_shallowest(a: &Shape, b: &Shape, a_from_b: &Pose, closest: &ClosestPoints) {
+    let error = TOLERANCE * coordinates(a, b, a_from_b);
+    let witness_in_b = a_from_b.inverse_transform_point(closest.witness_b);
+    let steps = [-1.0, 0.0, 1.0];
+    let grid = steps
+        .into_iter()
+        .flat_map(move |x| steps.map(|y| DVec3::new(x, y, 0.0)))
+        .flat_map(move |xy| steps.map(|z| xy + DVec3::Z * z))
+        .filter(|direction| *direction != DVec3::ZERO);
+    for step in grid {
+        let around = [1e-2, 1e-5, 1e-8].map(|by| closest.normal + by * step);
+        for direction in [step, a_from_b.transform_vector(step)]
+            .into_iter()
+            .chain(around)
+        {
+            let direction = direction.normalize();
+            let gap = support_gap(a, b, a_from_b, direction);
+            assert!(
+                gap <= closest.separation + error,
+                "{gap} apart along {direction}: {closest:?}"
+            );
+            let beyond = |shape: &Shape, point: DVec3, direction: DVec3| {
+                let top = shape.support(direction, 0).point;
+                direction.dot(point - top) - shape.radius()
+            };
+            let out = beyond(a, closest.witness_a, direction);
+            assert!(out <= error, "witness A is {out} out: {closest:?}");
+            let in_b = a_from_b.inverse_transform_vector(direction);
+            let out = beyond(b, witness_in_b, in_b);
+            assert!(out <= error, "witness B is {out} out: {closest:?}");
+        }
+    }
 }
 
 fn judge_casts(a: &Shape, b: &Shape, a_from_b: &Pose, motion: DVec3) {
