@@ -136,18 +136,15 @@ impl Scene<'_> {
                 "triangle {triangle}, {separation} away, is missing from {every:?}"
             );
         }
-        let every: Vec<u32> = every.iter().map(|hit| hit.triangle).collect();
         let minima = bvh.contacts(mesh, self.shape, &self.pose, self.margin, cache);
-        assert_eq!(minima.is_empty(), every.is_empty(), "{every:?}");
         for hit in minima {
             self.judge_contact(hit, separations);
-            assert!(every.contains(&hit.triangle), "{hit:?} of {every:?}");
+            assert!(hit.closest.separation <= self.margin, "{hit:?}");
         }
-        let separation = |triangle: u32| separations[triangle as usize];
-        let lowest = every.iter().map(|&t| separation(t));
-        let lowest = lowest.fold(f64::INFINITY, f64::min);
+        let lowest = separations.iter().copied().fold(f64::INFINITY, f64::min);
+        // At the margin itself rounding decides, which differs between two queries.
         assert!(
-            minima.is_empty()
+            lowest > self.margin - self.error
                 || minima
                     .iter()
                     .any(|hit| hit.closest.separation <= lowest + self.error),
