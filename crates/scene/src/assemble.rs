@@ -1,6 +1,7 @@
 //! From a scene description to a world, its motion and its device: reads the files that the scene names.
 
 mod shape;
+mod slices;
 mod tool;
 
 use std::path::{Path, PathBuf};

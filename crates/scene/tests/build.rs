@@ -177,6 +177,41 @@ fn reasons_why_a_shape_is_not_convex_are_short_and_in_metres() {
 }
 
 #[test]
+fn needles_are_built_or_refused_for_their_proportions() {
+    let sectors = "length: 0.2, sectors: 5";
+    let needles = |radius: &str| {
+        [
+            format!("cylinder(radius: {radius}, {sectors})"),
+            format!("capsule(radius: {radius}, {sectors})"),
+            format!("cone(base_radius: {radius}, tip_radius: 0, {sectors})"),
+        ]
+    };
+    for object in needles("1e-8") {
+        build(ROD, &object, "").unwrap();
+        build(
+            &format!("shape: {}", object.replace("cylinder", "pin")),
+            BOX,
+            "",
+        )
+        .unwrap();
+    }
+    for radius in ["1e-12", "1e-13", "1e-20", "1e-300"] {
+        for object in needles(radius) {
+            let tool = object.replace("cylinder", "pin");
+            for error in [
+                build(ROD, &object, ""),
+                build(&format!("shape: {tool}"), BOX, ""),
+            ] {
+                let message = error.unwrap_err().to_string();
+                let cause = ["thin for its size", "the mesh is flat", "lie on a line"];
+                assert!(cause.iter().any(|c| message.contains(c)), "{message}");
+                assert!(!message.contains("convex_hull"), "{message}");
+            }
+        }
+    }
+}
+
+#[test]
 fn hulls_are_taken_only_on_request() {
     for object in [
         "mesh(path: \"open.obj\", unit: mm, convex_hull: true)",

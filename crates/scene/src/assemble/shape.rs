@@ -68,7 +68,11 @@ pub(super) fn convex(
         ShapeDescription::Mesh(file) => format!("`{}`: ", file.path),
         _ => String::new(),
     };
-    convex.map_err(|error| fault(format!("{file}{}", in_metres(&error))))
+    let words = match shape {
+        ShapeDescription::Mesh(_) | ShapeDescription::Tube { .. } => in_metres,
+        _ => of_generated,
+    };
+    convex.map_err(|error| fault(format!("{file}{}", words(&error))))
 }
 
 /// What stands in the way, with the unit that the mesh itself does not know: scenes scale their meshes to metres.
@@ -79,6 +83,17 @@ pub(super) fn in_metres(error: &ConvexityError) -> String {
         | ConvexityError::Winding { .. }
         | ConvexityError::Hull(HullError::TooFew { .. }) => error.to_string(),
         _ => format!("{error} (lengths in metres)"),
+    }
+}
+
+/// As [`in_metres`] for a generated shape, convex by construction: only its proportions can stand in the way, and there is
+/// no hull to take.
+pub(super) fn of_generated(error: &ConvexityError) -> String {
+    match error {
+        ConvexityError::Flat { .. } => in_metres(error),
+        _ => "the shape is so thin for its size that its sides have no area and no direction in double precision; choose \
+              measures within a factor of 1e9 of each other"
+            .to_owned(),
     }
 }
 

@@ -1,13 +1,12 @@
 //! Tools: cut along x into segments, each convex.
 
-use std::collections::BTreeSet;
-
 use glam::{DQuat, DVec3};
 use pliant_mesh::generate::{self, GenerateError};
 use pliant_mesh::{ConvexMesh, TriangleMesh};
 use pliant_spatial::Pose;
 
-use super::shape::{FaceBudget, in_metres, mesh_in_metres};
+use super::shape::{FaceBudget, in_metres, mesh_in_metres, of_generated};
+use super::slices::Slices;
 use crate::digits::number;
 use crate::error::{Fault, SceneError};
 use crate::files::Files;
@@ -33,7 +32,11 @@ pub(super) fn segments(
         .take(generated_faces(&tool.shape, count))
         .map_err(fault)?;
     let convex = |mesh: &TriangleMesh| {
-        ConvexMesh::from_triangles(mesh).map_err(|error| fault(in_metres(&error)))
+        let words = match &tool.shape {
+            ToolShape::Mesh { .. } => in_metres,
+            _ => of_generated,
+        };
+        ConvexMesh::from_triangles(mesh).map_err(|error| fault(words(&error)))
     };
     if let Some((section, length)) = section(&tool.shape) {
         return (0..count)
@@ -58,10 +61,10 @@ pub(super) fn segments(
         return Ok(vec![convex(&whole)?]);
     }
     let length = whole.bounds().max.x;
-    (0..count)
-        .map(|index| {
-            let start = border(length, index, count);
-            let points = slice(&whole, start, border(length, index + 1, count));
+    let ends = (1..=count).map(|index| border(length, index, count));
+    Slices::new(&whole, ends.collect())
+        .enumerate()
+        .map(|(index, points)| {
             ConvexMesh::hull(&points).map_err(|error| {
                 let advice = "use fewer segments";
                 let error = in_metres(&error);
@@ -200,31 +203,4 @@ fn capsule(shape: &ToolShape) -> Result<TriangleMesh, String> {
     }
     generate::capsule(radius, length - caps, sectors.get(), bands.get())
         .map_err(|error| error.to_string())
-}
-
-/// The points whose hull is that of the part of `mesh` between `start` and `end` along x: vertices there, and
-/// where edges cross its borders.
-fn slice(mesh: &TriangleMesh, start: f64, end: f64) -> Vec<DVec3> {
-    let positions = mesh.positions();
-    let mut points: Vec<DVec3> = positions
-        .iter()
-        .copied()
-        .filter(|p| (start..=end).contains(&p.x))
-        .collect();
-    let edges: BTreeSet<(u32, u32)> = mesh
-        .triangles()
-        .iter()
-        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
-        .map(|(a, b)| (a.min(b), a.max(b)))
-        .collect();
-    for (a, b) in edges {
-        let (a, b) = (positions[a as usize], positions[b as usize]);
-        for border in [start, end] {
-            if (a.x - border) * (b.x - border) < 0.0 {
-                let crossing = a.lerp(b, (border - a.x) / (b.x - a.x));
-                points.push(DVec3::new(border, crossing.y, crossing.z));
-            }
-        }
-    }
-    points
 }
