@@ -17,7 +17,7 @@ use crate::support::SupportMap;
 const STOP_LIMIT: u32 = 64;
 
 /// A gap smaller than this times the coordinates at hand is contact: rounding would not let it shrink further.
-const CONTACT_TOLERANCE: f64 = 1e-15;
+const CONTACT_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
 /// Where a ray meets a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,20 +102,23 @@ where
             return None;
         }
         let pose = at(next);
-        let Some(closest) = distance(a, b, &pose, cache) else {
-            // Touching to rounding. Round surfaces turn under the last step and their cores tell by how much; between flat
-            // ones the last plane is the one that is met.
+        let closest = distance(a, b, &pose, cache);
+        let touching = |closest: &ClosestPoints| {
+            let scale = closest.witness_a.abs().max_element()
+                + pose.translation.abs().max_element()
+                + motion_of_b_in_a.abs().max_element();
+            closest.separation <= CONTACT_TOLERANCE * scale || next <= fraction
+        };
+        let Some(closest) = closest.filter(|closest| !touching(closest)) else {
+            // So close that the new plane may be any: the last one is the one that is met. But round surfaces turn under the
+            // last step, and their cores, which are apart, tell by how much.
+            let met = closest_points(a, b, &pose, cache);
             if a.radius() + b.radius() > 0.0 {
-                last = closest_points(a, b, &pose, cache);
+                last.normal = met.normal;
             }
+            last.witness_a = met.witness_a;
             return Some(hit(next, &last));
         };
-        let scale = closest.witness_a.abs().max_element()
-            + pose.translation.abs().max_element()
-            + motion_of_b_in_a.abs().max_element();
-        if closest.separation <= CONTACT_TOLERANCE * scale || next <= fraction {
-            return Some(hit(next, &closest));
-        }
         fraction = next;
         last = closest;
     }

@@ -15,7 +15,7 @@
 
 use glam::DVec3;
 
-use crate::gjk::{GAP_TOLERANCE, Plane};
+use crate::gjk::{GAP_TOLERANCE, Plane, witnesses};
 use crate::rims;
 use crate::simplex::{NOISE, Simplex, cross_of, plane_of};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
@@ -67,22 +67,26 @@ where
     let small = expand(difference, &mut polytope);
     if !small.full {
         polytope.remember(surface);
-        return small.plane;
+        return if small.doubtful {
+            deepest_of_rims(difference, &polytope, small.plane)
+        } else {
+            small.plane
+        };
     }
     let mut polytope = Polytope::<1024, 2048>::empty();
     polytope.start(&tetrahedron);
     let large = expand(difference, &mut polytope);
-    if !large.full {
+    if !large.full && !large.doubtful {
         return large.plane;
     }
     deepest_of_rims(difference, &polytope, large.plane)
 }
 
-/// Most combinations of rims, edges and corners that are compared.
-const MOST_PLACES: usize = 64;
+/// Most combinations of rims, edges and corners, in any quarter of a side of a cube around the origin, that are compared.
+const MOST_PLACES: usize = 128;
 
 /// Around an axis all directions are nearly equally deep and no number of faces tells which is the one. Of every
-/// combination of rims, edges and corners among the faces left open, the plane from which it settles lowest.
+/// such combination among the faces left lower, the plane from which it settles lowest.
 #[inline(never)]
 fn deepest_of_rims<A, B, const VERTICES: usize, const FACES: usize>(
     difference: &MinkowskiDifference<'_, A, B>,
@@ -93,32 +97,37 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let mut best = plane;
-    let Some(settled) = rims::settle(difference, &best) else {
+    if !rims::meets(difference, &plane.simplex) {
         return plane;
+    }
+    // Of equally deep ones that with the better witnesses.
+    let merit = |plane: &Plane| {
+        let found = witnesses(difference, plane);
+        let apart = found.witness_b - found.witness_a;
+        found.separation - (apart - found.normal * found.separation).length()
     };
-    let mut separation = settled.separation;
+    let mut best = plane;
+    let mut most = merit(&best);
     let mut seen = [0; MOST_PLACES];
     let mut count = 0;
-    for face in polytope.open_faces() {
+    for face in polytope.faces_below(-plane.separation) {
         let corners = polytope.corners(face);
-        let key = rims::key(difference, &corners);
+        let (outward, _) = polytope.plane(face);
+        let key = rims::key(difference, &corners, outward);
         if count == MOST_PLACES || seen[..count].contains(&key) {
             continue;
         }
         seen[count] = key;
         count += 1;
-        let (outward, _) = polytope.plane(face);
         let reach = outward.dot(difference.support(outward, &corners[0]).point);
         let candidate = Plane {
             normal: -outward,
             separation: -reach,
             simplex: nearest_to(outward * reach, std::iter::once(corners)).1,
         };
-        if let Some(settled) = rims::settle(difference, &candidate)
-            && settled.separation > separation
-        {
-            separation = settled.separation;
+        let own = merit(&candidate);
+        if own > most {
+            most = own;
             best = candidate;
         }
     }

@@ -7,28 +7,49 @@
 //! the direction in which the met places are equally high and the way out crosses the surface between them.
 
 use glam::{DVec2, DVec3};
+use pliant_spatial::Pose;
 
-use crate::gjk::{ClosestPoints, Plane};
+use crate::gjk::{ClosestPoints, Exit, Goal, Plane, SimplexCache, search};
+use crate::simplex::Simplex;
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 mod foot;
 mod place;
 
-use foot::{Foot, between, least_weight, level, weigh};
+use foot::Feet;
 use place::Place;
 pub use place::Rim;
 pub(crate) use place::key;
 
 /// Distance between the foot of a plane and the points met there, and height of a place over the plane of others, that
 /// rounding explains, times the largest coordinate.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-const STEP_LIMIT: u32 = 64;
+/// Gap or depth in which rounding leaves nothing to be told about the direction, times the largest coordinate.
+const TOUCHING: f64 = 256.0 * f64::EPSILON;
+
+/// Newton's steps on the places met first: where these are the right ones three or four are enough.
+const STEP_LIMIT: u32 = 8;
+
+/// Descents with places found anew.
+const DESCENT_LIMIT: u32 = 48;
 
 /// Largest turn of one step [rad].
 const LONGEST_STEP: f64 = 0.5;
 
-/// The answer of a plane found by GJK or EPA: made exact where rims are met, the plane's own elsewhere.
+/// A turn after which the same places are still likely to be met [rad].
+const SHORT_STEP: f64 = 1e-3;
+
+/// Of a step that leads over a ridge; then the ridge itself is the answer.
+const SHORTEST_STRIDE: f64 = 1e-6;
+
+/// Turn that tells apart places of equal height [rad].
+const TILT: f64 = 1e-8;
+
+/// How far beyond the way out the nearest point is sought that tells the places, times the largest coordinate.
+const LEAD: f64 = 1e-3;
+
+/// The answer of a plane found by GJK or EPA made exact (collision.11). `None` where no rim is met, or nothing better was found.
 pub(crate) fn settle<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     plane: &Plane,
@@ -37,8 +58,37 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let mut search = Search::new(difference, plane)?;
-    search.run();
+    if meets(difference, &plane.simplex) {
+        refine(difference, plane)
+    } else {
+        None
+    }
+}
+
+/// Whether a vertex of a simplex is on a rim.
+pub(crate) fn meets<A, B>(difference: &MinkowskiDifference<'_, A, B>, simplex: &Simplex) -> bool
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let turned = |vertex: &DifferencePoint| Place::of(difference, vertex).is_turned();
+    simplex.vertices().iter().any(turned)
+}
+
+#[inline(never)]
+fn refine<A, B>(difference: &MinkowskiDifference<'_, A, B>, plane: &Plane) -> Option<ClosestPoints>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut search = Search::new(difference, plane);
+    // Touching to rounding every direction is the answer; the one from the feature is the one that makes sense.
+    if plane.separation.abs() <= TOUCHING * search.scale {
+        return None;
+    }
+    if !search.run() {
+        search.descend(plane);
+    }
     let Settled {
         outward,
         reach,
@@ -59,7 +109,7 @@ struct Search<'d, 's, A: ?Sized, B: ?Sized> {
     difference: &'d MinkowskiDifference<'s, A, B>,
     scale: f64,
     outward: DVec3,
-    places: [Option<Place>; 3],
+    places: [Place; 3],
     len: usize,
     /// Lowest sum of height and miss so far, with what it belongs to unless that is the start.
     merit: f64,
@@ -74,194 +124,255 @@ struct Settled {
     in_b: DVec3,
 }
 
+/// What the places make of a direction.
+struct Measure {
+    /// Height of the plane that supports the difference.
+    reach: f64,
+    /// To rounding the places are the highest, and the way out passes between them,
+    closed: bool,
+    /// else, of places that are the highest, the one on the wrong side of the others, and the direction away from it.
+    outside: Option<(usize, DVec3)>,
+    /// It also meets the surface there, and the height falls in no direction.
+    exact: bool,
+    /// The turn to the next direction [rad].
+    change: DVec3,
+    /// The places levelled.
+    places: ([Place; 3], usize),
+    /// The place that reaches furthest.
+    highest: Place,
+}
+
 impl<'d, 's, A, B> Search<'d, 's, A, B>
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    /// `None` where no rim is met or the plane is exact already.
-    fn new(difference: &'d MinkowskiDifference<'s, A, B>, plane: &Plane) -> Option<Self> {
-        let vertices = plane.simplex.vertices();
-        if !vertices
-            .iter()
-            .any(|vertex| Place::of(difference, vertex).is_turned())
-        {
-            return None;
-        }
+    fn new(difference: &'d MinkowskiDifference<'s, A, B>, plane: &Plane) -> Self {
         let mut foot = DVec3::ZERO;
         let mut scale = 0.0_f64;
+        let vertices = plane.simplex.vertices();
         for (vertex, &weight) in vertices.iter().zip(plane.simplex.weights()) {
             let point = difference.vertex(vertex.a, vertex.b).point;
             foot += point * weight;
-            scale = scale.max(point.length());
+            scale = scale.max(point.length()).max(difference.size_at(vertex));
         }
         let miss = (foot - plane.normal * plane.separation).length();
         let mut search = Self {
             difference,
             scale,
             outward: -plane.normal,
-            places: [None; 3],
+            places: [Place::of(difference, &vertices[0]); 3],
             len: 0,
             merit: miss - plane.separation,
             best: None,
         };
-        for vertex in vertices {
-            let place = Place::of(difference, vertex);
-            if !search.places.contains(&Some(place)) && search.len < 3 {
-                search.places[search.len] = Some(place);
-                search.len += 1;
-            }
-        }
-        Some(search)
+        search.take_places(&plane.simplex);
+        search
     }
 
-    fn run(&mut self) {
+    /// The places of a simplex, each once.
+    fn take_places(&mut self, simplex: &Simplex) {
+        self.len = 0;
+        for vertex in simplex.vertices() {
+            let place = Place::of(self.difference, vertex);
+            if !self.places[..self.len].contains(&place) && self.len < 3 {
+                self.places[self.len] = place;
+                self.len += 1;
+            }
+        }
+    }
+
+    /// Newton's method on the places as they are. Whether that was all.
+    fn run(&mut self) -> bool {
         for _ in 0..STEP_LIMIT {
-            if self.step().is_none() {
+            match self.measure() {
+                Some(measure) if measure.closed => {
+                    if measure.exact {
+                        return true;
+                    }
+                    self.outward = (self.outward + measure.change).normalize();
+                }
+                Some(Measure {
+                    outside: Some((index, towards)),
+                    ..
+                }) if self.exchange(index, towards) => {}
+                _ => return false,
+            }
+        }
+        false
+    }
+
+    /// Gives a place for the one of equal height that lies furthest in a direction. Whether there is one.
+    fn exchange(&mut self, index: usize, towards: DVec3) -> bool {
+        let tilted = self.outward + towards * TILT;
+        let support = self.difference.support(tilted, &DifferencePoint::NONE);
+        let place = Place::of(self.difference, &support);
+        let new = !self.places[..self.len].contains(&place);
+        if new {
+            self.places[index] = place;
+        }
+        new
+    }
+
+    /// The same with the places found anew after every long step, and never uphill.
+    fn descend(&mut self, plane: &Plane) {
+        let mut cache = SimplexCache::default();
+        cache.remember(&plane.simplex);
+        self.outward = -plane.normal;
+        let mut lowest: Option<(DVec3, Measure)> = None;
+        let mut stride = 1.0;
+        for _ in 0..DESCENT_LIMIT {
+            if self.project(&mut cache).is_none() {
+                return;
+            }
+            let projected = self.outward;
+            let Some(measure) = self.closing_in() else {
+                return;
+            };
+            if measure.exact {
+                return;
+            }
+            match &lowest {
+                // Over a ridge: half way.
+                Some((outward, before)) if measure.reach > before.reach + ROUNDING * self.scale => {
+                    stride *= 0.25;
+                    if stride < SHORTEST_STRIDE {
+                        self.outward = *outward;
+                        self.meet(before.places, measure.highest);
+                        return;
+                    }
+                    self.outward = (outward + before.change * stride).normalize();
+                }
+                _ => {
+                    stride = 1.0;
+                    if !measure.closed {
+                        // Places that tell nothing: on from where the nearest point is.
+                        self.outward = projected;
+                    }
+                    let outward = self.outward;
+                    let change = if measure.closed {
+                        measure.change
+                    } else {
+                        DVec3::ZERO
+                    };
+                    self.outward = (outward + change).normalize();
+                    lowest = Some((outward, Measure { change, ..measure }));
+                }
+            }
+        }
+    }
+
+    /// Measures, and takes short steps while they close in.
+    fn closing_in(&mut self) -> Option<Measure> {
+        let mut measure = self.measure()?;
+        for _ in 0..STEP_LIMIT {
+            if measure.exact || !measure.closed || measure.change.length() > SHORT_STEP {
                 break;
             }
+            self.outward = (self.outward + measure.change).normalize();
+            measure = self.measure()?;
         }
+        Some(measure)
     }
 
-    /// `None` at the end.
-    fn step(&mut self) -> Option<()> {
-        let feet = self.feet()?;
-        let Some(level) = level(self.outward, &feet[..self.len]) else {
-            self.remove(between(&feet[..self.len]));
-            return (self.len > 0).then_some(());
+    /// Ends where the places of one side of a ridge and the highest beyond it are level.
+    fn meet(&mut self, (places, len): ([Place; 3], usize), beyond: Place) {
+        self.places = places;
+        self.len = len;
+        if len < 3 && !places[..len].contains(&beyond) {
+            self.places[len] = beyond;
+            self.len += 1;
+        }
+        self.run();
+    }
+
+    /// Turns to where the point of the difference is nearest to one beyond the way out, never a deeper direction, and takes
+    /// the places met there.
+    fn project(&mut self, cache: &mut SimplexCache) -> Option<()> {
+        let start = self
+            .difference
+            .support(self.outward, &DifferencePoint::NONE);
+        let reach = start.point.dot(self.outward);
+        let beyond = self.outward * (reach + LEAD * self.scale);
+        let a_from_b = self.difference.a_from_b;
+        let pose = Pose::new(a_from_b.rotation, a_from_b.translation - beyond);
+        let moved = MinkowskiDifference::new(self.difference.a, self.difference.b, &pose);
+        let Exit::Apart(found) = search(&moved, cache, Goal::Distance) else {
+            return None;
         };
-        self.outward = level;
-        let mut feet = self.feet()?;
-        let outward = self.outward;
-        let support = self.difference.support(outward, &DifferencePoint::NONE);
-        let highest = feet[..self.len]
-            .iter()
-            .fold(f64::NEG_INFINITY, |highest, foot| {
-                highest.max(foot.point.dot(outward))
-            });
+        cache.remember(&found.simplex);
+        self.outward = -found.normal;
+        self.take_places(&found.simplex);
+        Some(())
+    }
+
+    /// Levels the direction and weighs its places. `None` where one of them has no support in it.
+    fn measure(&mut self) -> Option<Measure> {
+        let difference = self.difference;
+        let outward = loop {
+            let feet = Feet::new(difference, &self.places[..self.len], self.outward)?;
+            match feet.level(difference, self.outward) {
+                Ok(level) => break level,
+                Err(between) => {
+                    self.len -= 1;
+                    self.places.swap(between, self.len);
+                }
+            }
+        };
+        self.outward = outward;
+        let mut feet = Feet::new(difference, &self.places[..self.len], outward)?;
+        let support = difference.support(outward, &DifferencePoint::NONE);
+        let highest = feet.height(outward);
         // Rims are polygons to their support mapping: the circle may reach further by rounding.
         let reach = support.point.dot(outward).max(highest);
         let exit = outward * reach;
-        weigh(&mut feet[..self.len], exit);
-        let least = least_weight(&feet[..self.len]);
-        let offset = self.record(&feet, exit, reach);
-        let exact = offset.length() <= ROUNDING * self.scale;
-        let place = Place::of(self.difference, &support);
-        if reach - highest > ROUNDING * self.scale && !self.places.contains(&Some(place)) {
-            self.add(place);
-            return Some(());
-        }
-        if let Some((index, weight)) = least
-            && weight < 0.0
-            && self.len > 1
-        {
-            self.remove(index);
-            return Some(());
-        }
-        if self.len == 3 {
-            return (!exact).then_some(());
-        }
-        let crest = self.turn(&feet, offset, reach);
-        (crest || !exact).then_some(())
-    }
-
-    fn feet(&self) -> Option<[Foot; 3]> {
-        let mut feet = [Foot::default(); 3];
-        let along_b = self.difference.direction_in_b(self.outward);
-        for (foot, place) in feet.iter_mut().zip(self.places.iter().flatten()) {
-            let (in_a, bend_a) = place.a.furthest(-self.outward)?;
-            let (in_b, bend_b) = place.b.furthest(along_b)?;
-            *foot = Foot {
-                in_a,
-                in_b,
-                point: self.difference.difference(in_a, in_b),
-                bends: [bend_a, self.difference.direction_in_a(bend_b)],
-                weight: 0.0,
-            };
-        }
-        Some(feet)
-    }
-
-    /// Notes what the feet make of the exit; the point met there less the exit.
-    fn record(&mut self, feet: &[Foot; 3], exit: DVec3, reach: f64) -> DVec3 {
-        let inside = feet[..self.len].iter().map(|foot| foot.weight.max(0.0));
-        let sum: f64 = inside.clone().sum();
-        let (mut in_a, mut in_b, mut met, mut free) =
-            (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
-        for (foot, weight) in feet.iter().zip(inside) {
-            in_a += foot.in_a * (weight / sum);
-            in_b += foot.in_b * (weight / sum);
-            met += (foot.point - exit) * (weight / sum);
-            free += (foot.point - exit) * foot.weight;
-        }
-        let merit = met.length() + reach;
+        let offset = feet.weigh(difference, exit);
+        let met = feet.met(exit);
+        let merit = met.miss.length() + reach;
         if merit < self.merit {
             self.merit = merit;
             self.best = Some(Settled {
-                outward: self.outward,
+                outward,
                 reach,
-                in_a,
-                in_b,
+                in_a: met.in_a,
+                in_b: met.in_b,
             });
         }
-        free
+        let rounding = ROUNDING * self.scale;
+        let (least, weight) = feet.least_weight();
+        let supports = reach - highest <= rounding;
+        let closed = supports && weight >= -ROUNDING;
+        let outside = (supports && !closed).then(|| (least, feet.away_from(difference, least)));
+        let (change, crest) = self.newton(&feet, offset, reach);
+        Some(Measure {
+            reach,
+            closed,
+            outside,
+            exact: closed && !crest && offset.length() <= rounding,
+            change,
+            places: (self.places, self.len),
+            highest: Place::of(difference, &support),
+        })
     }
 
-    fn add(&mut self, place: Place) {
-        if self.len < 3 {
-            self.places[self.len] = Some(place);
-            self.len += 1;
-            return;
-        }
-        // Of the three triangles with it the one over which the way out passes.
-        let old = self.places;
-        let mut best = (f64::NEG_INFINITY, old);
-        for slot in 0..3 {
-            self.places = old;
-            self.places[slot] = Some(place);
-            let Some(feet) = self.feet() else { continue };
-            let Some(outward) = level(self.outward, &feet) else {
-                continue;
-            };
-            let mut feet = feet;
-            let exit = outward * outward.dot(feet[0].point);
-            weigh(&mut feet, exit);
-            if let Some((_, weight)) = least_weight(&feet)
-                && weight > best.0
-            {
-                best = (weight, self.places);
-            }
-        }
-        self.places = best.1;
-    }
-
-    fn remove(&mut self, index: usize) {
-        self.len -= 1;
-        self.places.swap(index, self.len);
-        self.places[self.len] = None;
-    }
-
-    /// Newton's step for the height of the plane in the directions that keep the places level. Whether it led off a crest.
-    fn turn(&mut self, feet: &[Foot; 3], offset: DVec3, reach: f64) -> bool {
+    /// Newton's step for the height of the plane in the directions that keep the places level, and whether it leads off a
+    /// crest.
+    fn newton(&self, feet: &Feet, offset: DVec3, reach: f64) -> (DVec3, bool) {
         let outward = self.outward;
-        let [u, w] = if self.len == 2 {
-            let along = (feet[1].point - feet[0].point).normalize();
-            [outward.cross(along), DVec3::ZERO]
-        } else {
-            let (u, w) = outward.any_orthonormal_pair();
-            [u, w]
-        };
-        let slope = DVec2::new(offset.dot(u), offset.dot(w));
-        // What bends is the height of the plane; where nothing may turn it bends up.
-        let (mut uu, mut uw, mut ww) = (-reach, 0.0, -reach * w.length_squared());
-        for foot in &feet[..self.len] {
-            for bend in foot.bends {
-                let (along_u, along_w) = (bend.dot(u), bend.dot(w));
-                uu += foot.weight * along_u * along_u;
-                uw += foot.weight * along_u * along_w;
-                ww += foot.weight * along_w * along_w;
+        let axes = match self.len {
+            1 => {
+                let (u, w) = outward.any_orthonormal_pair();
+                [u, w]
             }
-        }
+            2 => {
+                let along = feet.edge(self.difference, [0, 1]);
+                [outward.cross(along).normalize_or_zero(), DVec3::ZERO]
+            }
+            _ => return (DVec3::ZERO, false),
+        };
+        let slope = DVec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
+        let [uu, uw, ww] = feet.bend(axes);
+        let (uu, ww) = (uu - reach, ww - reach * axes[1].length_squared());
         // Axes of the second derivative: downhill along each, also where it bends the other way.
         let turn = 0.5 * (2.0 * uw).atan2(uu - ww);
         let (sine, cosine) = turn.sin_cos();
@@ -270,7 +381,7 @@ where
         for axis in [DVec2::new(cosine, sine), DVec2::new(-sine, cosine)] {
             let bend = uu * axis.x * axis.x + 2.0 * uw * axis.x * axis.y + ww * axis.y * axis.y;
             let slope = slope.dot(axis);
-            let falls = bend < -8.0 * ROUNDING * self.scale;
+            let falls = bend < -ROUNDING * self.scale;
             crest |= falls;
             if falls || bend.abs() * LONGEST_STEP <= slope.abs() {
                 if falls || slope != 0.0 {
@@ -280,9 +391,7 @@ where
                 change -= axis * (slope / bend.abs());
             }
         }
-        let change = u * change.x + w * change.y;
-        let change = change.clamp_length_max(LONGEST_STEP);
-        self.outward = (outward + change).normalize();
-        crest
+        let change = axes[0] * change.x + axes[1] * change.y;
+        (change.clamp_length_max(LONGEST_STEP), crest)
     }
 }

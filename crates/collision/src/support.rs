@@ -182,6 +182,12 @@ impl<'s, A: SupportMap + ?Sized, B: SupportMap + ?Sized> MinkowskiDifference<'s,
         }
     }
 
+    /// Larger distance of the two shapes' vertices from their interior points [m].
+    pub(crate) fn size_at(&self, vertex: &DifferencePoint) -> f64 {
+        let of_a = self.a.vertex(vertex.a).distance(self.origin_in_a);
+        of_a.max(self.b.vertex(vertex.b).distance(self.origin_in_b))
+    }
+
     /// A direction of A's frame in B's.
     pub(crate) fn direction_in_b(&self, direction: DVec3) -> DVec3 {
         self.b_from_a_rotation * direction

@@ -171,9 +171,9 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
         (height < f64::INFINITY).then_some(lowest)
     }
 
-    /// The faces that may still grow.
-    pub(crate) fn open_faces(&self) -> impl Iterator<Item = usize> {
-        (0..self.face_end).filter(|&slot| self.open[slot] < f64::INFINITY)
+    /// The faces lower than a height.
+    pub(crate) fn faces_below(&self, height: f64) -> impl Iterator<Item = usize> {
+        (0..self.face_end).filter(move |&slot| self.faces[slot].live && self.heights[slot] < height)
     }
 
     pub(crate) fn corners(&self, face: usize) -> [DifferencePoint; 3] {

@@ -98,10 +98,12 @@ impl Place {
     }
 }
 
-/// The same number for the same set of vertices and rims under a face.
+/// The same number for the same set of vertices and rims under a face, in about the same direction: a rim may be met on
+/// opposite sides.
 pub(crate) fn key<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     corners: &[DifferencePoint; 3],
+    outward: DVec3,
 ) -> u64
 where
     A: SupportMap + ?Sized,
@@ -120,5 +122,8 @@ where
         keys[1] = 0;
     }
     keys.sort_unstable();
-    keys.into_iter().fold(0, mix)
+    let size = outward.abs();
+    let side = size.cmpeq(DVec3::splat(size.max_element())).bitmask();
+    let direction = side << 3 | outward.cmpge(DVec3::ZERO).bitmask();
+    keys.into_iter().fold(u64::from(direction), mix)
 }
