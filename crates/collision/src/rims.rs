@@ -46,6 +46,9 @@ const SHORTEST_STRIDE: f64 = 1e-6;
 /// Turn that tells apart places of equal height [rad].
 const TILT: f64 = 1e-8;
 
+/// Cosine of a normal with the axis of a disc that might be the face met.
+const NEARLY_SQUARE: f64 = 0.999_999;
+
 /// How far beyond the way out the nearest point is sought that tells the places, times the largest coordinate.
 const LEAD: f64 = 1e-3;
 
@@ -86,6 +89,7 @@ where
     if plane.separation.abs() <= TOUCHING * search.scale {
         return None;
     }
+    search.try_discs();
     if !search.run() {
         search.descend(plane);
     }
@@ -179,6 +183,59 @@ where
                 self.places[self.len] = place;
                 self.len += 1;
             }
+        }
+    }
+
+    /// The planes of the rims' discs where they are almost the one found: three corners of a rim close to each other
+    /// tell its plane badly.
+    fn try_discs(&mut self) {
+        let difference = self.difference;
+        let found = self.outward;
+        for place in self.places.into_iter().take(self.len) {
+            for (side, rim) in [place.a.rim(), place.b.rim()].into_iter().enumerate() {
+                let Some(rim) = rim else { continue };
+                let axis = if side == 0 {
+                    rim.axis
+                } else {
+                    difference.direction_in_a(rim.axis)
+                };
+                let along = axis.dot(found);
+                if along.abs() < NEARLY_SQUARE {
+                    continue;
+                }
+                let outward = axis * along.signum();
+                let support = difference.support(outward, &DifferencePoint::NONE);
+                let reach = support.point.dot(outward);
+                let exit = outward * reach;
+                let mut points = [
+                    difference.a.vertex(support.a),
+                    difference.b.vertex(support.b),
+                ];
+                points[side] = rim.centre;
+                let aside = exit - difference.difference(points[0], points[1]);
+                let within = aside.clamp_length_max(rim.radius);
+                points[side] += if side == 0 {
+                    -within
+                } else {
+                    difference.direction_in_b(within)
+                };
+                let miss = exit - difference.difference(points[0], points[1]);
+                self.offer(outward, reach, points, miss);
+            }
+        }
+    }
+
+    /// Notes an answer if it is the best so far: the sum of height and miss counts.
+    fn offer(&mut self, outward: DVec3, reach: f64, [in_a, in_b]: [DVec3; 2], miss: DVec3) {
+        let merit = miss.length() + reach;
+        if merit < self.merit {
+            self.merit = merit;
+            self.best = Some(Settled {
+                outward,
+                reach,
+                in_a,
+                in_b,
+            });
         }
     }
 
@@ -328,16 +385,7 @@ where
         let exit = outward * reach;
         let offset = feet.weigh(difference, exit);
         let met = feet.met(exit);
-        let merit = met.miss.length() + reach;
-        if merit < self.merit {
-            self.merit = merit;
-            self.best = Some(Settled {
-                outward,
-                reach,
-                in_a: met.in_a,
-                in_b: met.in_b,
-            });
-        }
+        self.offer(outward, reach, [met.in_a, met.in_b], met.miss);
         let rounding = ROUNDING * self.scale;
         let (least, weight) = feet.least_weight();
         let supports = reach - highest <= rounding;

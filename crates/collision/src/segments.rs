@@ -6,6 +6,8 @@
 
 use glam::DVec3;
 
+use crate::simplex::NOISE;
+
 /// Distances below this times the size do not tell a direction by themselves.
 const TOUCHING: f64 = 1e-9;
 
@@ -42,7 +44,7 @@ impl Segments {
             separation: f64::NEG_INFINITY,
         };
         if distance > 0.0 {
-            best.offer(gap / distance, self);
+            best.offer(gap / distance, self, 0.0);
         }
         if distance <= TOUCHING * size || distance == 0.0 {
             let longest = if self.half_a.length_squared() >= self.half_b.length_squared() {
@@ -52,8 +54,10 @@ impl Segments {
             };
             let across =
                 cross.unwrap_or_else(|| longest.any_orthogonal_vector().normalize_or(DVec3::Z));
-            best.offer(across, self);
-            best.offer(-across, self);
+            // Only if it tells more than rounding: else the gap knows better where the segments came from.
+            let rounding = NOISE * size;
+            best.offer(across, self, rounding);
+            best.offer(-across, self, rounding);
         }
         best
     }
@@ -106,9 +110,10 @@ impl Segments {
 }
 
 impl Nearest {
-    fn offer(&mut self, normal: DVec3, segments: &Segments) {
+    /// Takes a direction whose gap is wider by more than a margin [m].
+    fn offer(&mut self, normal: DVec3, segments: &Segments, margin: f64) {
         let separation = segments.gap_along(normal);
-        if separation > self.separation {
+        if separation > self.separation + margin {
             self.normal = normal;
             self.separation = separation;
         }

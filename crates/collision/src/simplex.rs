@@ -34,10 +34,15 @@ pub(crate) struct Nearest {
     pub(crate) distance: f64,
 }
 
-/// Which of the simplex's vertices span the nearest feature, with what weights.
+/// Which of the simplex's vertices span the nearest feature, with what weights. Normalised only once it is chosen.
 #[derive(Clone, Copy)]
 struct Candidate {
-    nearest: Nearest,
+    /// From the origin towards the nearest point, of any length.
+    towards: DVec3,
+    /// Of a face the absolute product of `towards` with a point of it; else `towards` ends at the nearest point.
+    volume: Option<f64>,
+    /// Squared distance [m²].
+    square: f64,
     corners: [usize; 3],
     weights: [f64; 3],
     len: usize,
@@ -106,12 +111,14 @@ impl Simplex {
             self.weights[slot] = best.weights[slot];
         }
         self.len = best.len;
-        Some(best.nearest)
+        Some(best.nearest())
     }
 
     fn on_vertex(&self, corner: usize) -> Candidate {
         Candidate {
-            nearest: Nearest::from_vector(self.vertices[corner].point),
+            towards: self.vertices[corner].point,
+            volume: None,
+            square: self.vertices[corner].point.length_squared(),
             corners: [corner, 0, 0],
             weights: [1.0, 0.0, 0.0],
             len: 1,
@@ -134,7 +141,9 @@ impl Simplex {
         // The first rejection is orthogonal to rounding of `start`; the second to rounding of itself.
         let rejection = rejection - edge * (rejection.dot(edge) / length_squared);
         Candidate {
-            nearest: Nearest::from_vector(rejection),
+            towards: rejection,
+            volume: None,
+            square: rejection.length_squared(),
             corners: [i, j, 0],
             weights: [1.0 - fraction, fraction, 0.0],
             len: 2,
@@ -152,32 +161,33 @@ impl Simplex {
         if area_squared <= NOISE * NOISE * size * longest {
             return self.nearest_edge([i, j, k], [true; 3]);
         }
-        let normal = cross / area_squared.sqrt();
-        let height = normal.dot(p);
+        let inverse = 1.0 / area_squared;
+        let volume = cross.dot(p);
         // Relative to a corner and within the plane the coordinates are as small as the triangle, not as the shapes.
-        let foot = normal * height - p;
-        let weight_q = foot.cross(pr).dot(cross) / area_squared;
-        let weight_r = pq.cross(foot).dot(cross) / area_squared;
+        let foot = cross * (volume * inverse) - p;
+        let weight_q = foot.cross(pr).dot(cross) * inverse;
+        let weight_r = pq.cross(foot).dot(cross) * inverse;
         let weight_p = 1.0 - weight_q - weight_r;
         // A foot on an edge to rounding belongs to the face: its normal stays exact at any height, the edge's does not.
         let mut weights = [weight_p, weight_q, weight_r];
         let beyond = weights.map(|weight| weight <= 0.0);
         let inside = !beyond.contains(&true);
-        let sides = [longest, pr.length_squared(), pq.length_squared()];
-        let on_edge = |(weight, side): (f64, f64)| {
-            weight > 0.0 || weight * weight * area_squared < NOISE * NOISE * longest * side
+        let on_edge = || {
+            let sides = [longest, pr.length_squared(), pq.length_squared()];
+            weights.into_iter().zip(sides).all(|(weight, side)| {
+                weight > 0.0 || weight * weight * area_squared < NOISE * NOISE * longest * side
+            })
         };
-        if inside || weights.into_iter().zip(sides).all(on_edge) {
+        if inside || on_edge() {
             if !inside {
                 // On an edge its weights are those of the edge: in a needle the others are rounding, magnified.
                 let edge = self.nearest_edge([i, j, k], beyond);
                 weights = [i, j, k].map(|corner| edge.weight_of(corner));
             }
             return Candidate {
-                nearest: Nearest {
-                    normal: if height < 0.0 { -normal } else { normal },
-                    distance: height.abs(),
-                },
+                towards: if volume < 0.0 { -cross } else { cross },
+                volume: Some(volume.abs()),
+                square: volume * inverse * volume,
                 corners: [i, j, k],
                 weights,
                 len: 3,
@@ -218,16 +228,21 @@ impl Simplex {
     /// Nearest face the origin lies beyond; `None` if it lies strictly inside all four.
     fn on_tetrahedron(&self) -> Option<Candidate> {
         let scale = self.scale();
+        // No bound of rounding below is larger.
+        let doubt = 8.0 * NOISE * scale * scale * scale;
         let mut best: Option<Candidate> = None;
         for (i, j, k, opposite) in [(0, 1, 2, 3), (0, 1, 3, 2), (0, 2, 3, 1), (1, 2, 3, 0)] {
             let [p, q, r, s] = [i, j, k, opposite].map(|corner| self.vertices[corner].point);
             let cross = (q - p).cross(r - p);
             let height = cross.dot(p);
             let side = cross.dot(s - p);
-            // Edges carry the rounding of the coordinates, short ones most of it.
-            let blur = NOISE * scale * (q - p).length().max((r - p).length());
-            let flat = side.abs() <= NOISE * scale * cross.length() + blur * (s - p).length()
-                || height.abs() <= blur * p.length();
+            let flat = || {
+                // Edges carry the rounding of the coordinates, short ones most of it.
+                let blur = NOISE * scale * (q - p).length().max((r - p).length());
+                side.abs() <= NOISE * scale * cross.length() + blur * (s - p).length()
+                    || height.abs() <= blur * p.length()
+            };
+            let flat = side.abs().min(height.abs()) <= doubt && flat();
             // The origin and the fourth vertex on different sides of the face, or nothing certain.
             if flat || side * height >= 0.0 {
                 best = Some(nearer(best, self.on_triangle(i, j, k)));
@@ -238,23 +253,23 @@ impl Simplex {
 }
 
 impl Candidate {
+    fn nearest(&self) -> Nearest {
+        let length = self.towards.length();
+        Nearest {
+            normal: if length > 0.0 {
+                self.towards / length
+            } else {
+                DVec3::ZERO
+            },
+            distance: self.volume.map_or(length, |volume| volume / length),
+        }
+    }
+
     fn weight_of(&self, corner: usize) -> f64 {
         let slot = self.corners[..self.len]
             .iter()
             .position(|&own| own == corner);
         slot.map_or(0.0, |slot| self.weights[slot])
-    }
-}
-
-impl Nearest {
-    fn from_vector(vector: DVec3) -> Self {
-        let distance = vector.length();
-        let normal = if distance > 0.0 {
-            vector / distance
-        } else {
-            DVec3::ZERO
-        };
-        Self { normal, distance }
     }
 }
 
@@ -296,7 +311,7 @@ pub(crate) fn cross_of([p, q, r]: [DVec3; 3]) -> (DVec3, DVec3) {
 
 fn nearer(best: Option<Candidate>, candidate: Candidate) -> Candidate {
     match best {
-        Some(best) if best.nearest.distance <= candidate.nearest.distance => best,
+        Some(best) if best.square <= candidate.square => best,
         _ => candidate,
     }
 }

@@ -53,6 +53,13 @@ impl Side {
         }
     }
 
+    pub(crate) fn rim(self) -> Option<Rim> {
+        match self {
+            Self::Vertex(_) => None,
+            Self::Rim(rim) => Some(rim),
+        }
+    }
+
     /// The same number for the same vertex or rim.
     fn key<S: SupportMap + ?Sized>(shape: &S, index: u32) -> u64 {
         let numbers = match shape.rim(index) {
