@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::epa::nearest_to;
 use crate::epa::surface::Surface;
-use crate::simplex::{Simplex, plane_of};
+use crate::simplex::{Simplex, cross_of};
 use crate::support::DifferencePoint;
 
 /// What became of an attempt to add a vertex.
@@ -64,9 +64,11 @@ pub(crate) struct Polytope<const VERTICES: usize, const FACES: usize> {
     vertices: [DifferencePoint; VERTICES],
     vertex_count: usize,
     faces: [Face; FACES],
-    /// Outward unit normals.
+    /// Outward normals, twice the faces' areas long: most faces go before their unit normal is asked for.
     normals: [DVec3; FACES],
-    /// Signed distances of the faces' planes from the origin [m]; infinite without area.
+    /// Their products with a point of the face [m³].
+    volumes: [f64; FACES],
+    /// Distances of the faces' planes from the origin, squared but with their sign [m²]; infinite without area.
     heights: [f64; FACES],
     /// The same of faces that may still grow; infinite for all others.
     open: [f64; FACES],
@@ -87,6 +89,7 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
             vertex_count: 0,
             faces: [Face::FREE; FACES],
             normals: [DVec3::ZERO; FACES],
+            volumes: [0.0; FACES],
             heights: [f64::INFINITY; FACES],
             open: [f64::INFINITY; FACES],
             face_end: 0,
@@ -173,7 +176,8 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
 
     /// The faces lower than a height.
     pub(crate) fn faces_below(&self, height: f64) -> impl Iterator<Item = usize> {
-        (0..self.face_end).filter(move |&slot| self.faces[slot].live && self.heights[slot] < height)
+        let limit = height * height.abs();
+        (0..self.face_end).filter(move |&slot| self.faces[slot].live && self.heights[slot] < limit)
     }
 
     pub(crate) fn corners(&self, face: usize) -> [DifferencePoint; 3] {
@@ -184,7 +188,8 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
 
     /// Outward unit normal and signed height of a face.
     pub(crate) fn plane(&self, face: usize) -> (DVec3, f64) {
-        (self.normals[face], self.heights[face])
+        let inverse = 1.0 / self.normals[face].length();
+        (self.normals[face] * inverse, self.volumes[face] * inverse)
     }
 
     pub(crate) fn corner(&self, face: usize) -> DifferencePoint {
@@ -219,6 +224,7 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
     /// comes closer than `miss` [m] because rounding has put the right one above.
     pub(crate) fn feature_at(&self, exit: DVec3, limit: f64, miss: f64) -> Simplex {
         let below = |limit: f64| {
+            let limit = limit * limit.abs();
             let faces = self.faces[..self.face_end].iter().zip(&self.heights);
             faces
                 .filter(move |(face, height)| face.live && **height <= limit)
@@ -272,9 +278,7 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
             next += 1;
             for slot in across {
                 let beyond = usize::from(slot);
-                if !self.faces[beyond].visible
-                    && self.normals[beyond].dot(point) - self.heights[beyond] > tolerance
-                {
+                if !self.faces[beyond].visible && self.sees(beyond, point, tolerance) {
                     self.faces[beyond].visible = true;
                     self.visible[removed] = slot;
                     removed += 1;
@@ -282,6 +286,13 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
             }
         }
         removed
+    }
+
+    /// Whether a point lies more than `tolerance` [m] above a face.
+    fn sees(&self, face: usize, point: DVec3, tolerance: f64) -> bool {
+        let normal = self.normals[face];
+        let above = normal.dot(point) - self.volumes[face];
+        above > 0.0 && above * above > tolerance * tolerance * normal.length_squared()
     }
 
     /// Lists the edges around the visible faces; returns how many. More than the buffer holds are not listed.
@@ -375,9 +386,17 @@ impl<const VERTICES: usize, const FACES: usize> Polytope<VERTICES, FACES> {
 
     fn set_face(&mut self, slot: usize, corners: [u16; 3], across: [u16; 3]) {
         let points = corners.map(|corner| self.vertices[usize::from(corner)].point);
+        let (normal, base) = cross_of(points);
+        let volume = normal.dot(base);
+        let area_squared = normal.length_squared();
         // A face without area belongs to the surface but has no plane to grow along.
-        let (normal, height) = plane_of(points).unwrap_or((DVec3::ZERO, f64::INFINITY));
+        let height = if area_squared > 0.0 {
+            volume / area_squared * volume.abs()
+        } else {
+            f64::INFINITY
+        };
         self.normals[slot] = normal;
+        self.volumes[slot] = volume;
         self.heights[slot] = height;
         self.open[slot] = height;
         self.faces[slot] = Face {
