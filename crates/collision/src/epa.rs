@@ -73,13 +73,31 @@ where
             small.plane
         };
     }
-    let mut polytope = Polytope::<1024, 2048>::empty();
-    polytope.start(&tetrahedron);
-    let large = expand(difference, &mut polytope);
-    if !large.full && !large.doubtful {
-        return large.plane;
+    if rims::meets(difference, &small.plane.simplex) {
+        // On rims no number of faces is enough; these tell where to start.
+        return larger::<_, _, 320, 640>(difference, &tetrahedron);
     }
-    deepest_of_rims(difference, &polytope, large.plane)
+    larger::<_, _, 1024, 2048>(difference, &tetrahedron)
+}
+
+/// The same with room for more vertices and faces.
+#[inline(never)]
+fn larger<A, B, const VERTICES: usize, const FACES: usize>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    tetrahedron: &[DifferencePoint; 4],
+) -> Plane
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut polytope = Polytope::<VERTICES, FACES>::empty();
+    polytope.start(tetrahedron);
+    let found = expand(difference, &mut polytope);
+    if found.full || found.doubtful {
+        deepest_of_rims(difference, &polytope, found.plane)
+    } else {
+        found.plane
+    }
 }
 
 /// Most combinations of rims, edges and corners, in any quarter of a side of a cube around the origin, that are compared.

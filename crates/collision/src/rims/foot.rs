@@ -173,7 +173,7 @@ impl Feet {
     {
         let pairs = [[0, 1], [1, 2], [2, 0]];
         let edges = pairs.map(|pair| self.edge(difference, pair));
-        let lengths = edges.map(|edge| edge.length_squared());
+        let lengths = edges.map(DVec3::length_squared);
         let side = |better: fn(f64, f64) -> bool, not: usize| {
             (0..3)
                 .filter(|&index| index != not)
