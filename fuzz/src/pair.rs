@@ -3,7 +3,7 @@
 use arbitrary::Arbitrary;
 use glam::{DQuat, DVec3};
 use pliant_collision::{
-    ClosestPoints, Cuboid, PointSet, Rounded, Segment, SimplexCache, SupportMap, SupportPoint,
+    ClosestPoints, Cuboid, PointSet, Rim, Rounded, Segment, SimplexCache, SupportMap, SupportPoint,
     cast_ray, cast_shape, closest_points, distance, overlap,
 };
 use pliant_mesh::ConvexMesh;
@@ -159,6 +159,26 @@ impl SupportMap for Shape {
 
     fn interior_point(&self) -> DVec3 {
         self.ask(|shape| shape.interior_point())
+    }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        self.ask(|shape| shape.core_segment())
+    }
+
+    fn core_box(&self) -> Option<DVec3> {
+        self.ask(|shape| shape.core_box())
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        self.ask(|shape| shape.rim(index))
+    }
+
+    fn core_face_count(&self) -> u32 {
+        self.ask(|shape| shape.core_face_count())
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        self.ask(|shape| shape.core_face(face))
     }
 }
 

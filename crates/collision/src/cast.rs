@@ -42,7 +42,8 @@ pub struct CastHit {
 }
 
 /// First hit of a ray with a convex shape within `max_distance` [m], in the shape's frame. `direction_unit` has unit
-/// length. A ray that starts inside or on the shape hits at distance 0 with the normal of the nearest way out. Allocates nothing.
+/// length, `max_distance` may be infinite. A ray that starts inside or on the shape hits at distance 0 with the normal of
+/// the nearest way out. `None` for a negative distance, and for numbers that are none. Allocates nothing.
 pub fn cast_ray<A>(
     shape: &A,
     origin: DVec3,
@@ -52,6 +53,14 @@ pub fn cast_ray<A>(
 where
     A: SupportMap + ?Sized,
 {
+    if max_distance.is_nan() || max_distance < 0.0 {
+        return None;
+    }
+    // What is further than this along the ray is behind the shape's middle, too, and no longer motion changes the answer.
+    let middle = shape.interior_point();
+    let far = direction_unit.dot(middle - origin) + reach_along(shape, middle, direction_unit);
+    // Touching at the start counts, also when all of the shape lies behind.
+    let max_distance = max_distance.min(far.max(0.0));
     let pose = Pose::from_translation(origin);
     let hit = cast_shape(
         shape,
@@ -69,7 +78,8 @@ where
 }
 
 /// First contact of B, moving by `motion_of_b_in_a` [m] without turning, with A at rest. `None` if they stay apart.
-/// Shapes that touch or overlap at the start meet at fraction 0. Allocates nothing (collision.10).
+/// Shapes that touch or overlap at the start meet at fraction 0. `None` too for a motion that is not finite. Allocates
+/// nothing (collision.10).
 pub fn cast_shape<A, B>(
     a: &A,
     b: &B,
@@ -81,6 +91,9 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
+    if !motion_of_b_in_a.is_finite() || !a_from_b.translation.is_finite() {
+        return None;
+    }
     let at = |fraction: f64| {
         Pose::new(
             a_from_b.rotation,
@@ -106,7 +119,7 @@ where
         let touching = |closest: &ClosestPoints| {
             let scale = closest.witness_a.abs().max_element()
                 + pose.translation.abs().max_element()
-                + motion_of_b_in_a.abs().max_element();
+                + motion_of_b_in_a.abs().max_element() * next;
             closest.separation <= CONTACT_TOLERANCE * scale || next <= fraction
         };
         let Some(closest) = closest.filter(|closest| !touching(closest)) else {
@@ -123,6 +136,11 @@ where
         last = closest;
     }
     Some(hit(fraction, &last))
+}
+
+/// Distance from a point of a shape to the last of it along a direction [m].
+fn reach_along<A: SupportMap + ?Sized>(shape: &A, from: DVec3, direction: DVec3) -> f64 {
+    (shape.support(direction, u32::MAX).point - from).dot(direction) + shape.radius()
 }
 
 /// The contact as seen from the last certified stop: its plane is the one that is met.

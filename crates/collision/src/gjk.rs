@@ -53,6 +53,15 @@ pub struct ClosestPoints {
     pub separation: f64,
 }
 
+impl ClosestPoints {
+    /// How far the witness points are from being `separation · normal` apart [m]: rounding, unless the search gave out. Then
+    /// `separation` is a bound certified by its planes, no gap smaller and no depth larger than it says, the points lie on
+    /// the shapes all the same, and this measures what is missing.
+    pub fn doubt(&self) -> f64 {
+        (self.witness_b - self.witness_a - self.normal * self.separation).length()
+    }
+}
+
 /// How a search on the cores ended.
 pub(crate) enum Exit {
     /// Apart, by a certified amount.

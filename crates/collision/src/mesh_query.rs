@@ -5,6 +5,7 @@
 //! What makes repeated queries fast is [`MeshCache`]; what makes them equal to fresh ones is that everything cached is a
 //! certified lower bound (see [`front`]).
 
+use glam::DVec3;
 use pliant_mesh::TriangleMesh;
 use pliant_spatial::Pose;
 
@@ -54,10 +55,10 @@ pub struct MeshContact {
 
 /// What queries of one shape against one mesh remember from one placement to the next.
 ///
-/// Answers never depend on it, only their cost. Buffers grow to what the queries need and are then reused: a query like an
-/// earlier one allocates nothing. A cache used with another shape, or with another state of the tree, starts afresh; a
-/// shape that was *deformed* must be announced by [`MeshCache::deformed`] or [`MeshCache::clear`], as a deformation inside
-/// the shape's box cannot be noticed.
+/// Answers do not depend on it, only their cost. Buffers grow to what the queries need and are then reused: a query like an
+/// earlier one allocates nothing. Keep one per shape and mesh. A cache used with another state of the tree starts afresh,
+/// and with a shape that differs in its extents along the axes and diagonals of its frame; a shape that was *deformed* must
+/// be announced by [`MeshCache::deformed`] or [`MeshCache::clear`], as a dent between those cannot be noticed.
 #[derive(Debug, Default)]
 pub struct MeshCache {
     front: Front,
@@ -79,6 +80,40 @@ struct Last {
     revision: u64,
     pose: Pose,
     bounds: LocalBox,
+    shape: Likeness,
+}
+
+/// What tells a shape from another one in the same box.
+#[derive(Clone, Copy, Debug)]
+struct Likeness {
+    faces: u32,
+    radius: f64,
+    /// Heights along the diagonals of the frame [m].
+    heights: [f64; 8],
+}
+
+impl Likeness {
+    fn of<S: SupportMap + ?Sized>(shape: &S) -> Self {
+        let along = |corner: usize| {
+            let sign = |bit: usize| if corner & bit == 0 { 1.0 } else { -1.0 };
+            let direction = DVec3::new(sign(1), sign(2), sign(4));
+            shape.support(direction, u32::MAX).point.dot(direction)
+        };
+        Self {
+            faces: shape.core_face_count(),
+            radius: shape.radius(),
+            heights: std::array::from_fn(along),
+        }
+    }
+
+    /// Whether it may be the same shape, deformed by at most `deformation` [m].
+    fn is_like(&self, other: &Self, deformation: f64) -> bool {
+        let heights = self.heights.iter().zip(&other.heights);
+        self.faces == other.faces
+            && (self.radius - other.radius).abs() <= deformation
+            && heights.fold(0.0, |most: f64, (own, other)| most.max((own - other).abs()))
+                <= 2.0 * deformation
+    }
 }
 
 impl MeshCache {
@@ -98,16 +133,22 @@ impl MeshCache {
     /// Brings the front to the present placement, or throws it away.
     fn follow<S: SupportMap + ?Sized>(&mut self, bvh: &TriangleBvh, placed: &Placed<'_, S>) {
         let bounds = placed.local;
+        let shape = Likeness::of(placed.shape);
         let motion = self.last.and_then(|last| {
             let change = (bounds.min - last.bounds.min)
                 .abs()
                 .max((bounds.max - last.bounds.max).abs())
                 .max_element();
-            let known = last.revision == bvh.revision && change <= self.deformation + placed.slack;
+            let deformation = self.deformation + placed.slack;
+            let known = last.revision == bvh.revision
+                && change <= deformation
+                && last.shape.is_like(&shape, deformation);
             let motion = placed.motion_since(&last.pose) + self.deformation;
             // Beyond the sizes of both nothing the front knows is of use.
             let far = bounds.reach().max(FAR / bvh.tree.frame.per_metre);
-            (known && motion <= far).then_some(motion)
+            // Rounding of the sums of motions stays below the slack.
+            let exact = self.front.travelled() + motion <= placed.slack * 4e15;
+            (known && exact && motion <= far).then_some(motion)
         });
         if let Some(motion) = motion {
             self.front.advance(motion);
@@ -120,6 +161,7 @@ impl MeshCache {
             revision: bvh.revision,
             pose: *placed.mesh_from_shape,
             bounds,
+            shape,
         });
     }
 }

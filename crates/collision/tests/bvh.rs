@@ -89,6 +89,29 @@ fn rays_do_not_slip_between_triangles() {
     }
 }
 
+/// From a hundred and ten thousand sizes away the point on an edge is known to eleven and nine digits only.
+#[test]
+fn rays_from_afar_do_not_slip_between_triangles() {
+    let mesh = ellipsoid();
+    let bvh = TriangleBvh::new(&mesh);
+    for triangle in 0..triangle_count(&mesh) {
+        let [p, q, r] = mesh.corners(triangle);
+        for target in [p.midpoint(q), q.midpoint(r), q.lerp(r, 0.3)] {
+            let Some(outward) = (target - CENTRE).try_normalize() else {
+                continue;
+            };
+            for away in [10.0, 1e3] {
+                let hit = bvh.cast_ray(&mesh, target + outward * away, -outward, f64::INFINITY);
+                let (_, hit) = hit.expect("closed mesh");
+                assert!(
+                    (hit.point - target).length() < 1e-12 * away,
+                    "{target} {away}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn inner_wall_of_a_tube_is_found() {
     let mesh = tube(0.02, 0.01, 0.1, 64).expect("valid");

@@ -25,6 +25,31 @@ fn slab_entry(half: DVec3, origin: DVec3, direction: DVec3) -> Option<f64> {
     (entry <= exit && entry >= 0.0).then_some(entry)
 }
 
+/// A unit ball at offset 0.5: 3 − √0.75 from −3, however far the ray may go.
+#[test]
+fn the_length_allowed_to_a_ray_does_not_matter() {
+    let ball = Rounded::sphere(DVec3::ZERO, 1.0);
+    let expected = 3.0 - 0.75_f64.sqrt();
+    for longest in [5.0, 1e9, 1e15, f64::MAX, f64::INFINITY] {
+        let hit = cast_ray(&ball, DVec3::new(-3.0, 0.5, 0.0), DVec3::X, longest).expect("hit");
+        assert!((hit.distance - expected).abs() < 1e-14, "{longest} {hit:?}");
+        assert!(cast_ray(&ball, DVec3::new(-3.0, 1.05, 0.0), DVec3::X, longest).is_none());
+    }
+}
+
+#[test]
+fn lengths_that_are_none_hit_nothing() {
+    for longest in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+        assert!(cast_ray(&BOX, DVec3::X, DVec3::NEG_X, longest).is_none());
+        assert!(cast_ray(&BOX, DVec3::ZERO, DVec3::X, longest).is_none());
+    }
+    let pose = Pose::from_translation(DVec3::X);
+    for motion in [DVec3::NAN, DVec3::NEG_X * f64::INFINITY] {
+        let cache = &mut SimplexCache::default();
+        assert!(cast_shape(&BOX, &BOX, &pose, motion, cache).is_none());
+    }
+}
+
 #[test]
 fn ray_meets_face_edge_and_corner_of_a_box() {
     let hit = cast_ray(&BOX, DVec3::new(0.1, 0.05, 1.0), DVec3::NEG_Z, 2.0).expect("face");

@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use pliant_collision::{
-    ClosestPoints, Cuboid, Point, PointSet, Rounded, Segment, SimplexCache, SupportMap,
+    ClosestPoints, Cuboid, Point, PointSet, Rim, Rounded, Segment, SimplexCache, SupportMap,
     SupportPoint, Triangle, closest_points, overlap,
 };
 use pliant_mesh::ConvexMesh;
@@ -64,6 +64,26 @@ impl SupportMap for Shape {
 
     fn interior_point(&self) -> DVec3 {
         self.with(|shape| shape.interior_point())
+    }
+
+    fn core_segment(&self) -> Option<[DVec3; 2]> {
+        self.with(|shape| shape.core_segment())
+    }
+
+    fn core_box(&self) -> Option<DVec3> {
+        self.with(|shape| shape.core_box())
+    }
+
+    fn rim(&self, index: u32) -> Option<Rim> {
+        self.with(|shape| shape.rim(index))
+    }
+
+    fn core_face_count(&self) -> u32 {
+        self.with(|shape| shape.core_face_count())
+    }
+
+    fn core_face(&self, face: u32) -> DVec3 {
+        self.with(|shape| shape.core_face(face))
     }
 }
 

@@ -348,6 +348,30 @@ fn warm_queries_answer_what_cold_ones_do() {
     assert!(contacts > 5000, "{contacts}");
 }
 
+/// A ball and a box of the same extents: what is far from the one may be deep in the other.
+#[test]
+fn a_cache_left_by_another_shape_hides_nothing() {
+    let mesh = latitude_longitude_ellipsoid(DVec3::new(0.05, 0.045, 0.04), 96, 67).expect("valid");
+    let bvh = TriangleBvh::new(&mesh);
+    let ball = Rounded::sphere(DVec3::ZERO, 0.01);
+    let cube = Cuboid {
+        half: DVec3::splat(0.01),
+    };
+    let corner_down = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
+    let pose = Pose::new(corner_down, DVec3::new(0.0, 0.0, 0.0545));
+    let mut cache = MeshCache::default();
+    assert!(
+        bvh.contacts(&mesh, &ball, &pose, 0.0, &mut cache)
+            .is_empty()
+    );
+    let warm = bvh.contacts(&mesh, &cube, &pose, 0.0, &mut cache).to_vec();
+    let cold = bvh
+        .contacts(&mesh, &cube, &pose, 0.0, &mut MeshCache::default())
+        .to_vec();
+    assert!(!cold.is_empty());
+    assert_eq!(warm, cold);
+}
+
 #[test]
 fn the_deepest_is_the_least_of_all() {
     let mut random = ChaCha8Rng::seed_from_u64(5);

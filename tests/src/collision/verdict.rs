@@ -1,16 +1,11 @@
 //! The verdict on one case of a reference file, by the rules of the format.
 
-use std::time::{Duration, Instant};
-
 use glam::{DQuat, DVec3};
 use pliant_collision::{ClosestPoints, SimplexCache, closest_points};
 use pliant_spatial::Pose;
 
 use super::reference::{Case, Reference};
 use super::shape::Shape;
-
-/// Time within which a query must end: a thousand times what the slowest takes, so only a loop without end trips it.
-const TIME_LIMIT: Duration = Duration::from_secs(1);
 
 /// What a unit vector's length may be off.
 const UNIT_SLACK: f64 = 1e-12;
@@ -93,13 +88,8 @@ impl Question<'_> {
     }
 
     fn check(&self, how: &str, cache: &mut SimplexCache, verdict: &mut Verdict) {
-        let start = Instant::now();
         let found = self.query(&self.a_from_b, cache);
-        let elapsed = start.elapsed();
         let mut fail = |fault: String| verdict.faults.push(format!("{how}: {fault}"));
-        if elapsed > TIME_LIMIT {
-            fail(format!("took {} s", elapsed.as_secs_f64()));
-        }
         self.check_numbers(&found, &mut fail);
         self.check_witnesses(&found, &mut fail);
         let error = (found.separation - self.case.signed_distance).abs();

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use crate::RayHit;
 
-/// Barycentric slack of a ray on an edge, so that rays cannot slip between two triangles that share it.
-const EDGE_SLACK: f64 = 1e-12;
+/// Distance of a ray's point from an edge that rounding explains, times the coordinates at hand: so much may lie outside a
+/// triangle, or rays would slip between two that share the edge.
+const EDGE_SLACK: f64 = 16.0 * f64::EPSILON;
 
 /// A triangle whose altitude is below this times its longest side has no plane to speak of.
 pub(crate) const FLAT: f64 = 1e-15;
@@ -28,9 +29,14 @@ pub(super) fn cast_ray(corners: &[DVec3; 3], origin: DVec3, direction: DVec3) ->
         return None;
     }
     let point = origin + direction * distance;
+    let [p, q, r] = *corners;
+    let longest = p.distance(q).max(q.distance(r)).max(r.distance(p));
+    let coordinates = origin.length() + distance + p.length() + longest;
+    // Weights are distances from edges over altitudes, of which area over the longest side is the least.
+    let slack = EDGE_SLACK * coordinates * longest / (q - p).cross(r - p).length();
     let inside = barycentric(corners, point)
         .iter()
-        .all(|&weight| weight >= -EDGE_SLACK);
+        .all(|&weight| weight >= -slack);
     inside.then_some(RayHit {
         distance,
         point,

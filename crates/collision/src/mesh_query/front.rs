@@ -74,6 +74,11 @@ impl Front {
         self.nodes.len() + self.triangles.len()
     }
 
+    /// How far the shape has moved since the front is there [m].
+    pub(super) fn travelled(&self) -> f64 {
+        self.travelled
+    }
+
     /// The shape moved by at most `distance` [m].
     pub(super) fn advance(&mut self, distance: f64) {
         self.travelled += distance;
