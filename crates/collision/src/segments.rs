@@ -90,7 +90,18 @@ impl Segments {
         }
         let mut best = (0.0, DVec3::INFINITY);
         let mut offer = |on_a: f64, gap: DVec3| {
-            if gap.length_squared() < best.1.length_squared() {
+            let (own, least) = (gap.length_squared(), best.1.length_squared());
+            let rounding = 2.0 * NOISE * least;
+            // Of equally near ones the gap across which the planes are further apart: on long segments a normal may be
+            // a little off where the distance does not show it.
+            let nearer = if own + rounding < least || least == f64::INFINITY {
+                true
+            } else {
+                own <= least + rounding
+                    && self.gap_along(gap.normalize_or_zero())
+                        > self.gap_along(best.1.normalize_or_zero())
+            };
+            if nearer {
                 best = (on_a, gap);
             }
         };

@@ -309,9 +309,10 @@ pub(crate) fn cross_of([p, q, r]: [DVec3; 3]) -> (DVec3, DVec3) {
     }
 }
 
+/// Of equals the later one: the face without the newest vertex comes first, and on it the search would not move.
 fn nearer(best: Option<Candidate>, candidate: Candidate) -> Candidate {
     match best {
-        Some(best) if best.square <= candidate.square => best,
+        Some(best) if best.square < candidate.square => best,
         _ => candidate,
     }
 }

@@ -1,12 +1,63 @@
 //! Placements that cost other implementations half their digits: nearly parallel segments, needles, exact touching.
 
 use glam::{DQuat, DVec3};
-use pliant_collision::{ClosestPoints, Cuboid, Rounded, Segment, SimplexCache, closest_points};
+use pliant_collision::{
+    ClosestPoints, Cuboid, PointSet, Rounded, Segment, SimplexCache, closest_points, distance,
+};
 use pliant_spatial::Pose;
 
 /// Distance by which an answer breaks `witness_b − witness_a = separation · normal` [m].
 fn broken(found: &ClosestPoints) -> f64 {
     (found.witness_b - found.witness_a - found.normal * found.separation).length()
+}
+
+/// End beside end, one segment 1e-10 m aslant: the nearest point is 3e-15 m inside it, the plane across the end 8e-15 m short.
+#[test]
+fn a_slant_at_the_end_of_a_segment_shows_in_the_normal() {
+    let a = Segment {
+        a: DVec3::Y * 1.25e-6,
+        b: DVec3::new(0.0, 1.25e-6, 1.25e-6),
+    };
+    let b = Segment {
+        a: DVec3::X * -1.027_584_075_927_734_3e-10,
+        b: DVec3::Z * -4e-6,
+    };
+    for [a, b] in [[a, b], [b, a]] {
+        let found = closest_points(&a, &b, &Pose::IDENTITY, &mut SimplexCache::default());
+        let expected = 1.25e-6_f64.hypot(1.027_584_075_927_734_3e-10);
+        assert!((found.separation - expected).abs() < 1e-20, "{found:?}");
+        assert!(broken(&found) < 1e-20, "{found:?}");
+    }
+}
+
+/// A face with the newest vertex, tilted by 2e-9, is as near to rounding as the one without it, and 4e-6 m long.
+#[test]
+fn a_sliver_as_near_as_the_face_before_it_is_taken() {
+    let rod = PointSet(&[
+        DVec3::new(-1e-23, -4e-6, -1.234_313_726_425_170_7e-6),
+        DVec3::new(9.313_225_746_154_784e-15, -5e-23, 4.9e-22),
+    ]);
+    let plate = Cuboid {
+        half: DVec3::new(4.9e-22, 9.313_225_746_154_784e-15, 3.125e-8),
+    };
+    let turn = DQuat::from_xyzw(
+        -0.015_624_206_527_661_326,
+        -4.999_746_088_851_626e-18,
+        -0.007_781_468_032_220_489,
+        0.999_847_654_858_301_2,
+    );
+    let before = Pose::new(turn, DVec3::new(-7.8e-22, -1e-23, 0.0));
+    let mut cache = SimplexCache::default();
+    closest_points(&rod, &plate, &before, &mut cache);
+    for _ in 0..2 {
+        let found = closest_points(&rod, &plate, &Pose::IDENTITY, &mut cache);
+        assert!(
+            (found.separation - 9.313_225e-15).abs() < 1e-20,
+            "{found:?}"
+        );
+        let apart = distance(&rod, &plate, &Pose::IDENTITY, &mut cache);
+        assert!(apart.is_some());
+    }
 }
 
 #[test]
