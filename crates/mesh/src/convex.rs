@@ -106,6 +106,22 @@ pub enum ConvexityError {
         /// What is allowed [m].
         tolerance: f64,
     },
+    /// A face too thin to have a plane lies inside the hull.
+    #[error(
+        "face {face} at {} is thinner than the tolerance and lies {} inside the hull, allowed {}; {USE_HULL}",
+        point(*.position), number(*.depth), number(*.tolerance),
+        face = .face.0
+    )]
+    SunkenFace {
+        /// The face.
+        face: FaceId,
+        /// Its deepest corner [m].
+        position: DVec3,
+        /// Depth of that corner below the nearest supporting plane that was found [m].
+        depth: f64,
+        /// What is allowed for thin faces [m].
+        tolerance: f64,
+    },
     /// The surface covers directions more than once.
     #[error("the surface winds {turns:.2} times around its middle instead of once; {USE_HULL}")]
     Winding {
@@ -135,7 +151,8 @@ impl ConvexMesh {
     /// Checks that the mesh is closed, in one piece, wound outward and convex: no vertex lies more than
     /// `relative_tolerance` times the diagonal of the bounds above the plane of any face.
     ///
-    /// Faces thinner than that tolerance count as edges: their plane says nothing.
+    /// The plane of a face thinner than that tolerance says nothing: its corners must lie at most twice the tolerance
+    /// below a plane that supports all vertices, or it must share its longest edge with a thicker face.
     ///
     /// # Errors
     /// The first condition that fails, with the worst element and its measure.

@@ -5,11 +5,13 @@
 //! the centroid to the nearest face plane. A plane section through the centroid meets each edge at most once
 //! and turns the wrong way there by at most D/r times the edge's angle, so no vertex is more than Θ·D²/r
 //! above a face plane. When that bound is not small enough (printed decimals, `f32`), the definition itself is
-//! tested ([`planes`]).
+//! tested ([`planes`]). Faces thinner than the tolerance have no plane to speak of and are held to the hull
+//! otherwise ([`slivers`]).
 //! One winding around the centroid excludes branched surfaces that satisfy all planes.
 
 use glam::DVec3;
 
+use self::planes::Tree;
 use self::rounded::Rounded;
 use super::ConvexityError;
 use crate::triangle_mesh::altitude;
@@ -17,6 +19,7 @@ use crate::{EdgeId, FaceId, HalfEdgeMesh, TriangleMesh, VertexId};
 
 mod planes;
 mod rounded;
+mod slivers;
 
 /// Volume over area, relative to the size, below which a mesh has no inside: rounding then decides the sign
 /// of the volume.
@@ -50,9 +53,14 @@ pub(super) fn check(
                 .dot(topology.face_corners(f)[0] - centroid)
         })
         .fold(f64::INFINITY, f64::min);
-    let proven = nearest > 0.0 && concave_angle * size * size <= BOUND_SHARE * tolerance * nearest;
+    // Without thick faces nothing is known: `nearest` and the sum are infinite.
+    let proven = nearest > 0.0
+        && concave_angle.is_finite()
+        && concave_angle * size * size <= BOUND_SHARE * tolerance * nearest;
     if !proven {
-        check_planes(topology, &thick, tolerance)?;
+        let tree = Tree::new(topology, &thick);
+        check_planes(topology, &tree, tolerance)?;
+        check_slivers(topology, &tree, &thick, (tolerance, centroid))?;
     }
     Ok(centroid)
 }
@@ -151,16 +159,34 @@ fn check_winding(rounded: &Rounded<'_>, center: DVec3) -> Result<(), ConvexityEr
 /// Refuses the highest vertex over any face plane (mesh.8).
 fn check_planes(
     topology: &HalfEdgeMesh,
-    thick: &[bool],
+    tree: &Tree,
     tolerance: f64,
 ) -> Result<(), ConvexityError> {
-    planes::highest_above(topology, thick, tolerance).map_or(Ok(()), |worst| {
+    tree.highest(tolerance).map_or(Ok(()), |worst| {
         Err(ConvexityError::VertexAboveFace {
             vertex: VertexId(worst.vertex),
             position: topology.positions()[worst.vertex as usize],
             face: worst.face,
             height: worst.height,
             tolerance,
+        })
+    })
+}
+
+/// Refuses a thin face far below the hull (mesh.16).
+fn check_slivers(
+    topology: &HalfEdgeMesh,
+    tree: &Tree,
+    thick: &[bool],
+    (tolerance, centroid): (f64, DVec3),
+) -> Result<(), ConvexityError> {
+    let found = slivers::sunken(topology, tree, thick, (tolerance, centroid));
+    found.map_or(Ok(()), |sunken| {
+        Err(ConvexityError::SunkenFace {
+            face: sunken.face,
+            position: topology.position(sunken.vertex),
+            depth: sunken.depth,
+            tolerance: sunken.allowed,
         })
     })
 }

@@ -20,15 +20,6 @@ pub(super) struct Excess {
     pub(super) vertex: u32,
 }
 
-/// The vertex highest above the plane of a face for which `thick` holds, if it is higher than `tolerance` [m].
-pub(super) fn highest_above(
-    topology: &HalfEdgeMesh,
-    thick: &[bool],
-    tolerance: f64,
-) -> Option<Excess> {
-    Tree::new(topology, thick).highest(tolerance)
-}
-
 /// A vertex relative to the middle of the mesh.
 #[derive(Clone, Copy)]
 struct Point {
@@ -66,7 +57,10 @@ struct Node {
     second: usize,
 }
 
-struct Tree {
+/// Vertices, and the planes of thick faces, in nested groups.
+pub(super) struct Tree {
+    /// Middle of the mesh, where the groups have their origin.
+    middle: DVec3,
     nodes: Vec<Node>,
     points: Vec<Point>,
     planes: Vec<Plane>,
@@ -75,13 +69,15 @@ struct Tree {
 }
 
 impl Tree {
-    fn new(topology: &HalfEdgeMesh, thick: &[bool]) -> Self {
+    /// With the planes of the faces for which `thick` holds.
+    pub(super) fn new(topology: &HalfEdgeMesh, thick: &[bool]) -> Self {
         let middle = topology.bounds().center();
         let of = |(vertex, &p): (u32, &DVec3)| Point {
             position: p - middle,
             vertex,
         };
         let mut tree = Self {
+            middle,
             nodes: Vec::new(),
             points: (0..).zip(topology.positions()).map(of).collect(),
             planes: Vec::new(),
@@ -214,7 +210,8 @@ impl Tree {
         self.nodes[index] = node;
     }
 
-    fn highest(&self, tolerance: f64) -> Option<Excess> {
+    /// The vertex highest above the plane of a thick face, if it is higher than `tolerance` [m].
+    pub(super) fn highest(&self, tolerance: f64) -> Option<Excess> {
         let mut limit = tolerance;
         let mut worst = None;
         let mut stack = vec![(0, 0)];
@@ -240,6 +237,37 @@ impl Tree {
             }
         }
         worst
+    }
+
+    /// A vertex that none exceeds along `direction`, a unit vector, by more than `slack` [m], and its height [m] from the
+    /// origin.
+    pub(super) fn farthest(&self, direction: DVec3, slack: f64) -> (u32, f64) {
+        let bound = |index: usize| {
+            let node = &self.nodes[index];
+            direction.dot(node.center) + node.reach(direction)
+        };
+        let mut best = (0, f64::NEG_INFINITY);
+        let mut stack = vec![(0, bound(0))];
+        while let Some((index, top)) = stack.pop() {
+            if top <= best.1 + slack {
+                continue;
+            }
+            let node = &self.nodes[index];
+            if node.second == 0 {
+                for point in &self.points[node.start..node.end] {
+                    let height = direction.dot(point.position);
+                    if height > best.1 {
+                        best = (point.vertex, height);
+                    }
+                }
+                continue;
+            }
+            // The more promising child is looked at first.
+            let mut children = [index + 1, node.second].map(|child| (child, bound(child)));
+            children.sort_by(|p, q| p.1.total_cmp(&q.1));
+            stack.extend(children);
+        }
+        (best.0, best.1 + direction.dot(self.middle))
     }
 
     /// Every plane of one leaf against every vertex of another.

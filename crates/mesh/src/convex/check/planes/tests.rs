@@ -1,6 +1,6 @@
 //! The bounds hold for every node and pair of nodes, and the search agrees with a scan of all pairs.
 
-use super::{Excess, Point, Tree, highest_above};
+use super::{Excess, Point, Tree};
 use crate::{HalfEdgeMesh, TriangleMesh, generate};
 use glam::{DQuat, DVec3};
 use pliant_spatial::Pose;
@@ -80,7 +80,7 @@ fn agrees_with_every_pair() {
         }
         let truth = by_every_pair(&topology, &thick).height.max(0.0);
         for tolerance in [0.0, 1e-6, 0.5 * truth, truth - 1e-12, truth + 1e-12] {
-            let worst = highest_above(&topology, &thick, tolerance);
+            let worst = Tree::new(&topology, &thick).highest(tolerance);
             if truth > tolerance + 1e-13 {
                 let worst = worst.expect("a vertex above a plane");
                 assert!((worst.height - truth).abs() < 1e-13, "{worst:?} {truth}");
@@ -141,6 +141,26 @@ fn no_pair_of_nodes_with_a_vertex_above_a_plane_is_passed_over() {
                     !owner.is_above(group, highest - 1e-13),
                     "{highest} {owner:?}"
                 );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_farthest_vertex_is_that_of_a_scan() {
+    for mesh in bodies().iter().step_by(5) {
+        let topology = HalfEdgeMesh::new(mesh).unwrap();
+        // Without planes groups have boxes alone.
+        for planes in [true, false] {
+            let tree = Tree::new(&topology, &vec![planes; topology.face_count()]);
+            let mut noise = noise(11);
+            for direction in (0..50).map(|_| DVec3::new(noise(), noise(), noise()).normalize()) {
+                let heights = topology.positions().iter().map(|p| direction.dot(*p));
+                let truth = heights.fold(f64::NEG_INFINITY, f64::max);
+                let (vertex, height) = tree.farthest(direction, 0.0);
+                let own = direction.dot(topology.positions()[vertex as usize]);
+                assert!((height - truth).abs() < 1e-13, "{height} {truth}");
+                assert!((own - truth).abs() < 1e-13, "{own} {truth}");
             }
         }
     }
