@@ -46,7 +46,7 @@ struct Support {
 }
 
 /// The first thin face found deeper below the hull than twice the `tolerance` [m], where no vertex is more than once the
-/// tolerance above a thick face.
+/// tolerance above a thick face (mesh.16).
 pub(super) fn sunken(
     topology: &HalfEdgeMesh,
     tree: &Tree,
