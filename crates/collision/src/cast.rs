@@ -19,6 +19,9 @@ const STOP_LIMIT: u32 = 64;
 /// A gap smaller than this times the coordinates at hand is contact: rounding would not let it shrink further.
 const CONTACT_TOLERANCE: f64 = 16.0 * f64::EPSILON;
 
+/// The same for a gap at which the plane has turned away from the motion: of a shape without thickness seen edge on, say.
+const TURNED_TOLERANCE: f64 = 1024.0 * f64::EPSILON;
+
 /// Where a ray meets a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
@@ -104,11 +107,14 @@ where
         return Some(hit(0.0, &closest_points(a, b, a_from_b, cache)));
     };
     let mut fraction = 0.0;
+    let mut before = last.normal;
     for _ in 0..STOP_LIMIT {
         let approach = -last.normal.dot(motion_of_b_in_a);
-        // Moving along or away from a separating plane never crosses it.
+        // Moving along or away from a separating plane never crosses it, unless rounding is all that separates.
         if approach <= 0.0 {
-            return None;
+            let touches = last.separation <= TURNED_TOLERANCE * last.witness_a.length();
+            last.normal = before;
+            return (fraction > 0.0 && touches).then(|| hit(fraction, &last));
         }
         let next = fraction + last.separation / approach;
         if next > 1.0 {
@@ -133,6 +139,7 @@ where
             return Some(hit(next, &last));
         };
         fraction = next;
+        before = last.normal;
         last = closest;
     }
     Some(hit(fraction, &last))

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use pliant_collision::{
-    Cuboid, Point, Rounded, Segment, SimplexCache, cast_ray, cast_shape, distance, overlap,
+    Cone, Cuboid, Point, Rounded, Segment, SimplexCache, cast_ray, cast_shape, distance, overlap,
 };
 use pliant_spatial::Pose;
 use proptest::prelude::{Strategy, prop_assert, proptest};
@@ -35,6 +35,28 @@ fn the_length_allowed_to_a_ray_does_not_matter() {
         assert!((hit.distance - expected).abs() < 1e-14, "{longest} {hit:?}");
         assert!(cast_ray(&ball, DVec3::new(-3.0, 1.05, 0.0), DVec3::X, longest).is_none());
     }
+}
+
+/// Thrown back along the normal from 7e-7 m beside a rim: the last stops are rounding away from it, on either side.
+#[test]
+fn a_point_beside_a_disc_is_met_at_its_rim() {
+    let disc = Cone {
+        half_length: 0.0,
+        base_radius: f64::from_bits(0x3fd7_5142_fd36_8d92),
+        top_radius: 0.0,
+    };
+    let place = [
+        0xbfd2_a373_ea6b_0f9b,
+        0xbfcc_05ac_8f52_0227,
+        0x3ea3_8a60_9612_0000,
+    ];
+    let pose = Pose::from_translation(DVec3::from_array(place.map(f64::from_bits)));
+    let point = Point(DVec3::ZERO);
+    let found = distance(&disc, &point, &pose, &mut SimplexCache::default()).expect("apart");
+    let motion = -found.normal * (found.separation + 0.18);
+    let hit = cast_shape(&disc, &point, &pose, motion, &mut SimplexCache::default());
+    let travelled = hit.expect("thrown at it").fraction * motion.length();
+    assert!((travelled - found.separation).abs() < 1e-12, "{travelled}");
 }
 
 #[test]
