@@ -59,11 +59,10 @@ where
     if max_distance.is_nan() || max_distance < 0.0 {
         return None;
     }
-    // What is further than this along the ray is behind the shape's middle, too, and no longer motion changes the answer.
-    let middle = shape.interior_point();
-    let far = direction_unit.dot(middle - origin) + reach_along(shape, middle, direction_unit);
-    // Touching at the start counts, also when all of the shape lies behind.
-    let max_distance = max_distance.min(far.max(0.0));
+    // Where the shape ends along the ray. Twice as far is finite and, whatever the rounding, not short of a contact there.
+    let last = shape.support(direction_unit, u32::MAX).point;
+    let far = (last - origin).dot(direction_unit) + shape.radius();
+    let max_distance = max_distance.min(2.0 * far.max(0.0));
     let pose = Pose::from_translation(origin);
     let hit = cast_shape(
         shape,
@@ -106,13 +105,19 @@ where
     let Some(mut last) = distance(a, b, a_from_b, cache) else {
         return Some(hit(0.0, &closest_points(a, b, a_from_b, cache)));
     };
+    // The coordinates in which a stop is worked out.
+    let scale = |closest: &ClosestPoints, fraction: f64| {
+        closest.witness_a.abs().max_element()
+            + at(fraction).translation.abs().max_element()
+            + motion_of_b_in_a.abs().max_element() * fraction
+    };
     let mut fraction = 0.0;
     let mut before = last.normal;
     for _ in 0..STOP_LIMIT {
         let approach = -last.normal.dot(motion_of_b_in_a);
         // Moving along or away from a separating plane never crosses it, unless rounding is all that separates.
         if approach <= 0.0 {
-            let touches = last.separation <= TURNED_TOLERANCE * last.witness_a.length();
+            let touches = last.separation <= TURNED_TOLERANCE * scale(&last, fraction);
             last.normal = before;
             return (fraction > 0.0 && touches).then(|| hit(fraction, &last));
         }
@@ -123,10 +128,7 @@ where
         let pose = at(next);
         let closest = distance(a, b, &pose, cache);
         let touching = |closest: &ClosestPoints| {
-            let scale = closest.witness_a.abs().max_element()
-                + pose.translation.abs().max_element()
-                + motion_of_b_in_a.abs().max_element() * next;
-            closest.separation <= CONTACT_TOLERANCE * scale || next <= fraction
+            closest.separation <= CONTACT_TOLERANCE * scale(closest, next) || next <= fraction
         };
         let Some(closest) = closest.filter(|closest| !touching(closest)) else {
             // So close that the new plane may be any: the last one is the one that is met. But round surfaces turn under the
@@ -143,11 +145,6 @@ where
         last = closest;
     }
     Some(hit(fraction, &last))
-}
-
-/// Distance from a point of a shape to the last of it along a direction [m].
-fn reach_along<A: SupportMap + ?Sized>(shape: &A, from: DVec3, direction: DVec3) -> f64 {
-    (shape.support(direction, u32::MAX).point - from).dot(direction) + shape.radius()
 }
 
 /// The contact as seen from the last certified stop: its plane is the one that is met.

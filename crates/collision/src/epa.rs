@@ -68,7 +68,7 @@ where
     if !small.full {
         polytope.remember(surface);
         return if small.doubtful {
-            deepest_of_rims(difference, &polytope, small.plane)
+            shallowest_on_rims(difference, &polytope, small.plane)
         } else {
             small.plane
         };
@@ -80,7 +80,7 @@ where
     larger::<_, _, 1024, 2048>(difference, &tetrahedron)
 }
 
-/// The same with room for more vertices and faces.
+/// Expands a tetrahedron with room for more vertices and faces.
 #[inline(never)]
 fn larger<A, B, const VERTICES: usize, const FACES: usize>(
     difference: &MinkowskiDifference<'_, A, B>,
@@ -94,19 +94,19 @@ where
     polytope.start(tetrahedron);
     let found = expand(difference, &mut polytope);
     if found.full || found.doubtful {
-        deepest_of_rims(difference, &polytope, found.plane)
+        shallowest_on_rims(difference, &polytope, found.plane)
     } else {
         found.plane
     }
 }
 
 /// Most combinations of rims, edges and corners, in any quarter of a side of a cube around the origin, that are compared.
-const MOST_PLACES: usize = 128;
+const MOST_FEATURES: usize = 128;
 
 /// Around an axis all directions are nearly equally deep and no number of faces tells which is the one. Of every
 /// such combination among the faces left lower, the plane from which it settles lowest.
 #[inline(never)]
-fn deepest_of_rims<A, B, const VERTICES: usize, const FACES: usize>(
+fn shallowest_on_rims<A, B, const VERTICES: usize, const FACES: usize>(
     difference: &MinkowskiDifference<'_, A, B>,
     polytope: &Polytope<VERTICES, FACES>,
     plane: Plane,
@@ -121,18 +121,17 @@ where
     // Of equally deep ones that with the better witnesses.
     let merit = |plane: &Plane| {
         let found = witnesses(difference, plane);
-        let apart = found.witness_b - found.witness_a;
-        found.separation - (apart - found.normal * found.separation).length()
+        found.separation - found.doubt()
     };
     let mut best = plane;
     let mut most = merit(&best);
-    let mut seen = [0; MOST_PLACES];
+    let mut seen = [0; MOST_FEATURES];
     let mut count = 0;
     for face in polytope.faces_below(-plane.separation) {
         let corners = polytope.corners(face);
         let (outward, _) = polytope.plane(face);
         let key = rims::key(difference, &corners, outward);
-        if count == MOST_PLACES || seen[..count].contains(&key) {
+        if count == MOST_FEATURES || seen[..count].contains(&key) {
             continue;
         }
         seen[count] = key;
@@ -152,7 +151,7 @@ where
     best
 }
 
-/// The same, started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in
+/// [`shallowest`], started from the surface of a placement nearby. Every corner of it is still a point of the difference; if in
 /// addition the origin lies below all its faces, then it lies inside, and no face of the difference is nearer than the
 /// nearest of these: between any of them and the origin there are only convex combinations of points of the difference.
 /// The surface need not be convex for that (collision.7). `None`: it does not enclose the origin any more.

@@ -103,17 +103,7 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
-        return between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
-    }
-    if let (Some(of_a), Some(of_b)) = (a.core_box(), b.core_box())
-        && let Some(found) = boxes::closest(
-            [of_a, of_b],
-            a_from_b,
-            [a.radius(), b.radius()],
-            &mut cache.of_boxes,
-        )
-    {
+    if let Some(found) = closed_form(a, b, a_from_b, cache) {
         return found;
     }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
@@ -149,18 +139,7 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
-        let closest = between_segments(of_a, of_b, a_from_b, [a.radius(), b.radius()]);
-        return (closest.separation > 0.0).then_some(closest);
-    }
-    if let (Some(of_a), Some(of_b)) = (a.core_box(), b.core_box())
-        && let Some(found) = boxes::closest(
-            [of_a, of_b],
-            a_from_b,
-            [a.radius(), b.radius()],
-            &mut cache.of_boxes,
-        )
-    {
+    if let Some(found) = closed_form(a, b, a_from_b, cache) {
         return (found.separation > 0.0).then_some(found);
     }
     let difference = MinkowskiDifference::new(a, b, a_from_b);
@@ -203,6 +182,27 @@ where
             true
         }
     }
+}
+
+/// The answer without a search: segments, boxes and what is rounded of them. `None` for other shapes, and for boxes in the
+/// rare case that rounding leaves open.
+#[inline]
+fn closed_form<A, B>(
+    a: &A,
+    b: &B,
+    a_from_b: &Pose,
+    cache: &mut SimplexCache,
+) -> Option<ClosestPoints>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let radii = [a.radius(), b.radius()];
+    if let (Some(of_a), Some(of_b)) = (a.core_segment(), b.core_segment()) {
+        return Some(between_segments(of_a, of_b, a_from_b, radii));
+    }
+    let halves = [a.core_box()?, b.core_box()?];
+    boxes::closest(halves, a_from_b, radii, &mut cache.of_boxes)
 }
 
 /// Closed form for capsules, spheres and what is thinner.

@@ -111,6 +111,7 @@ impl Likeness {
         let heights = self.heights.iter().zip(&other.heights);
         self.faces == other.faces
             && (self.radius - other.radius).abs() <= deformation
+            // The diagonals are √3 long.
             && heights.fold(0.0, |most: f64, (own, other)| most.max((own - other).abs()))
                 <= 2.0 * deformation
     }

@@ -4,7 +4,7 @@
 //! best half the digits of a direction are right, and around an axis, where all directions are nearly equally deep, EPA's
 //! buffers end before even those. But the vertices found tell *which* rims, edges and corners are met, and on these the
 //! supports are known as functions of the direction. What remains is a smooth problem with two unknowns (collision.11):
-//! the direction in which the met places are equally high and the way out crosses the surface between them.
+//! the direction in which the pairs of features met are equally high and the way out crosses the surface between them.
 
 use glam::{DVec2, DVec3};
 use pliant_spatial::Pose;
@@ -13,43 +13,43 @@ use crate::gjk::{ClosestPoints, Exit, Goal, Plane, SimplexCache, search};
 use crate::simplex::Simplex;
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
+mod feature;
 mod foot;
-mod place;
 
+use feature::FeaturePair;
+pub use feature::Rim;
+pub(crate) use feature::key;
 use foot::Feet;
-use place::Place;
-pub use place::Rim;
-pub(crate) use place::key;
 
-/// Distance between the foot of a plane and the points met there, and height of a place over the plane of others, that
+/// Distance between the foot of a plane and the points met there, and height of a pair over the plane of others, that
 /// rounding explains, times the largest coordinate.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Gap or depth in which rounding leaves nothing to be told about the direction, times the largest coordinate.
 const TOUCHING: f64 = 256.0 * f64::EPSILON;
 
-/// Newton's steps on the places met first: where these are the right ones three or four are enough.
+/// Newton's steps on the pairs met first: where these are the right ones three or four are enough.
 const STEP_LIMIT: u32 = 8;
 
-/// Descents with places found anew.
+/// Descents with pairs found anew.
 const DESCENT_LIMIT: u32 = 48;
 
 /// Largest turn of one step [rad].
 const LONGEST_STEP: f64 = 0.5;
 
-/// A turn after which the same places are still likely to be met [rad].
+/// A turn after which the same pairs are still likely to be met [rad].
 const SHORT_STEP: f64 = 1e-3;
 
 /// Of a step that leads over a ridge; then the ridge itself is the answer.
 const SHORTEST_STRIDE: f64 = 1e-6;
 
-/// Turn that tells apart places of equal height [rad].
+/// Turn that tells apart pairs of equal height [rad].
 const TILT: f64 = 1e-8;
 
 /// Cosine of a normal with the axis of a disc that might be the face met.
 const NEARLY_SQUARE: f64 = 0.999_999;
 
-/// How far beyond the way out the nearest point is sought that tells the places, times the largest coordinate.
+/// How far beyond the way out the nearest point is sought that tells the pairs, times the largest coordinate.
 const LEAD: f64 = 1e-3;
 
 /// The answer of a plane found by GJK or EPA made exact (collision.11). `None` where no rim is met, or nothing better was found.
@@ -61,11 +61,9 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    if meets(difference, &plane.simplex) {
-        refine(difference, plane)
-    } else {
-        None
-    }
+    meets(difference, &plane.simplex)
+        .then(|| refine(difference, plane))
+        .flatten()
 }
 
 /// Whether a vertex of a simplex is on a rim.
@@ -74,7 +72,7 @@ where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    let turned = |vertex: &DifferencePoint| Place::of(difference, vertex).is_turned();
+    let turned = |vertex: &DifferencePoint| FeaturePair::of(difference, vertex).is_turned();
     simplex.vertices().iter().any(turned)
 }
 
@@ -113,7 +111,7 @@ struct Search<'d, 's, A: ?Sized, B: ?Sized> {
     difference: &'d MinkowskiDifference<'s, A, B>,
     scale: f64,
     outward: DVec3,
-    places: [Place; 3],
+    pairs: [FeaturePair; 3],
     len: usize,
     /// Lowest sum of height and miss so far, with what it belongs to unless that is the start.
     merit: f64,
@@ -128,22 +126,22 @@ struct Settled {
     in_b: DVec3,
 }
 
-/// What the places make of a direction.
+/// What the pairs make of a direction.
 struct Measure {
     /// Height of the plane that supports the difference.
     reach: f64,
-    /// To rounding the places are the highest, and the way out passes between them,
+    /// To rounding the pairs are the highest, and the way out passes between them,
     closed: bool,
-    /// else, of places that are the highest, the one on the wrong side of the others, and the direction away from it.
+    /// else, of pairs that are the highest, the one on the wrong side of the others, and the direction away from it.
     outside: Option<(usize, DVec3)>,
     /// It also meets the surface there, and the height falls in no direction.
     exact: bool,
     /// The turn to the next direction [rad].
     change: DVec3,
-    /// The places levelled.
-    places: ([Place; 3], usize),
-    /// The place that reaches furthest.
-    highest: Place,
+    /// The pairs levelled.
+    pairs: ([FeaturePair; 3], usize),
+    /// The pair that reaches furthest.
+    highest: FeaturePair,
 }
 
 impl<'d, 's, A, B> Search<'d, 's, A, B>
@@ -165,22 +163,22 @@ where
             difference,
             scale,
             outward: -plane.normal,
-            places: [Place::of(difference, &vertices[0]); 3],
+            pairs: [FeaturePair::of(difference, &vertices[0]); 3],
             len: 0,
             merit: miss - plane.separation,
             best: None,
         };
-        search.take_places(&plane.simplex);
+        search.take_pairs(&plane.simplex);
         search
     }
 
-    /// The places of a simplex, each once.
-    fn take_places(&mut self, simplex: &Simplex) {
+    /// The pairs of a simplex, each once.
+    fn take_pairs(&mut self, simplex: &Simplex) {
         self.len = 0;
         for vertex in simplex.vertices() {
-            let place = Place::of(self.difference, vertex);
-            if !self.places[..self.len].contains(&place) && self.len < 3 {
-                self.places[self.len] = place;
+            let pair = FeaturePair::of(self.difference, vertex);
+            if !self.pairs[..self.len].contains(&pair) && self.len < 3 {
+                self.pairs[self.len] = pair;
                 self.len += 1;
             }
         }
@@ -191,8 +189,8 @@ where
     fn try_discs(&mut self) {
         let difference = self.difference;
         let found = self.outward;
-        for place in self.places.into_iter().take(self.len) {
-            for (side, rim) in [place.a.rim(), place.b.rim()].into_iter().enumerate() {
+        for pair in self.pairs.into_iter().take(self.len) {
+            for (side, rim) in [pair.a.rim(), pair.b.rim()].into_iter().enumerate() {
                 let Some(rim) = rim else { continue };
                 let axis = if side == 0 {
                     rim.axis
@@ -239,7 +237,7 @@ where
         }
     }
 
-    /// Newton's method on the places as they are. Whether that was all.
+    /// Newton's method on the pairs as they are. Whether that was all.
     fn run(&mut self) -> bool {
         for _ in 0..STEP_LIMIT {
             match self.measure() {
@@ -259,19 +257,19 @@ where
         false
     }
 
-    /// Gives a place for the one of equal height that lies furthest in a direction. Whether there is one.
+    /// Gives a pair for the one of equal height that lies furthest in a direction. Whether there is one.
     fn exchange(&mut self, index: usize, towards: DVec3) -> bool {
         let tilted = self.outward + towards * TILT;
         let support = self.difference.support(tilted, &DifferencePoint::NONE);
-        let place = Place::of(self.difference, &support);
-        let new = !self.places[..self.len].contains(&place);
+        let pair = FeaturePair::of(self.difference, &support);
+        let new = !self.pairs[..self.len].contains(&pair);
         if new {
-            self.places[index] = place;
+            self.pairs[index] = pair;
         }
         new
     }
 
-    /// The same with the places found anew after every long step, and never uphill.
+    /// [`Search::run`] with the pairs found anew after every long step, and never uphill.
     fn descend(&mut self, plane: &Plane) {
         let mut cache = SimplexCache::default();
         cache.remember(&plane.simplex);
@@ -290,12 +288,12 @@ where
                 return;
             }
             match &lowest {
-                // Over a ridge: half way.
+                // Over a ridge: a shorter step.
                 Some((outward, before)) if measure.reach > before.reach + ROUNDING * self.scale => {
                     stride *= 0.25;
                     if stride < SHORTEST_STRIDE {
                         self.outward = *outward;
-                        self.meet(before.places, measure.highest);
+                        self.meet(before.pairs, measure.highest);
                         return;
                     }
                     self.outward = (outward + before.change * stride).normalize();
@@ -303,7 +301,7 @@ where
                 _ => {
                     stride = 1.0;
                     if !measure.closed {
-                        // Places that tell nothing: on from where the nearest point is.
+                        // Pairs that tell nothing: on from where the nearest point is.
                         self.outward = projected;
                     }
                     let outward = self.outward;
@@ -332,19 +330,19 @@ where
         Some(measure)
     }
 
-    /// Ends where the places of one side of a ridge and the highest beyond it are level.
-    fn meet(&mut self, (places, len): ([Place; 3], usize), beyond: Place) {
-        self.places = places;
+    /// Ends where the pairs of one side of a ridge and the highest beyond it are level.
+    fn meet(&mut self, (pairs, len): ([FeaturePair; 3], usize), beyond: FeaturePair) {
+        self.pairs = pairs;
         self.len = len;
-        if len < 3 && !places[..len].contains(&beyond) {
-            self.places[len] = beyond;
+        if len < 3 && !pairs[..len].contains(&beyond) {
+            self.pairs[len] = beyond;
             self.len += 1;
         }
         self.run();
     }
 
     /// Turns to where the point of the difference is nearest to one beyond the way out, never a deeper direction, and takes
-    /// the places met there.
+    /// the pairs met there.
     fn project(&mut self, cache: &mut SimplexCache) -> Option<()> {
         let start = self
             .difference
@@ -359,25 +357,25 @@ where
         };
         cache.remember(&found.simplex);
         self.outward = -found.normal;
-        self.take_places(&found.simplex);
+        self.take_pairs(&found.simplex);
         Some(())
     }
 
-    /// Levels the direction and weighs its places. `None` where one of them has no support in it.
+    /// Levels the direction and weighs its pairs. `None` where one of them has no support in it.
     fn measure(&mut self) -> Option<Measure> {
         let difference = self.difference;
         let outward = loop {
-            let feet = Feet::new(difference, &self.places[..self.len], self.outward)?;
+            let feet = Feet::new(difference, &self.pairs[..self.len], self.outward)?;
             match feet.level(difference, self.outward) {
                 Ok(level) => break level,
                 Err(between) => {
                     self.len -= 1;
-                    self.places.swap(between, self.len);
+                    self.pairs.swap(between, self.len);
                 }
             }
         };
         self.outward = outward;
-        let mut feet = Feet::new(difference, &self.places[..self.len], outward)?;
+        let mut feet = Feet::new(difference, &self.pairs[..self.len], outward)?;
         let support = difference.support(outward, &DifferencePoint::NONE);
         let highest = feet.height(outward);
         // Rims are polygons to their support mapping: the circle may reach further by rounding.
@@ -398,12 +396,12 @@ where
             outside,
             exact: closed && !crest && offset.length() <= rounding,
             change,
-            places: (self.places, self.len),
-            highest: Place::of(difference, &support),
+            pairs: (self.pairs, self.len),
+            highest: FeaturePair::of(difference, &support),
         })
     }
 
-    /// Newton's step for the height of the plane in the directions that keep the places level, and whether it leads off a
+    /// Newton's step for the height of the plane in the directions that keep the pairs level, and whether it leads off a
     /// crest.
     fn newton(&self, feet: &Feet, offset: DVec3, reach: f64) -> (DVec3, bool) {
         let outward = self.outward;

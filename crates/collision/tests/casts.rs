@@ -59,6 +59,23 @@ fn a_point_beside_a_disc_is_met_at_its_rim() {
     assert!((travelled - found.separation).abs() < 1e-12, "{travelled}");
 }
 
+/// What is met first is also the end of the shape along the ray: flat targets square to it, and points.
+#[test]
+fn an_endless_ray_meets_targets_without_depth() {
+    let plate = Cuboid {
+        half: DVec3::new(0.3, 0.2, 0.0),
+    };
+    for i in 0..2000 {
+        let away = 0.37 + 0.013_7 * f64::from(i);
+        let off = DVec3::new(0.1, -0.07, 0.0);
+        let hit = cast_ray(&plate, off + DVec3::Z * away, DVec3::NEG_Z, f64::INFINITY);
+        assert!((hit.expect("plate").distance - away).abs() <= 4e-16 * away);
+        let towards = DVec3::new(f64::from(i) - 1000.0, 300.0, -700.0).normalize();
+        let hit = cast_ray(&Point(off), off - towards * away, towards, f64::INFINITY);
+        assert!((hit.expect("point").distance - away).abs() <= 1e-14 * away);
+    }
+}
+
 #[test]
 fn lengths_that_are_none_hit_nothing() {
     for longest in [f64::NAN, -1.0, f64::NEG_INFINITY] {

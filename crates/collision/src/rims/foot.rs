@@ -1,14 +1,14 @@
-//! Supports of up to three places in one direction, and the point between them.
+//! Supports of up to three pairs of features in one direction, and the point between them.
 
 use glam::DVec3;
 
-use crate::rims::place::Place;
+use crate::rims::feature::FeaturePair;
 use crate::support::{MinkowskiDifference, SupportMap};
 
-/// Height of a triangle of places that is no triangle, times its longest side.
+/// Height of a triangle of supports that is no triangle, times its longest side.
 const COLLINEAR: f64 = 1e-10;
 
-/// The support of a place in a direction.
+/// The support of a pair in a direction.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Foot {
     in_a: DVec3,
@@ -20,7 +20,7 @@ pub(crate) struct Foot {
     weight: f64,
 }
 
-/// The supports of places in one direction.
+/// The supports of pairs in one direction.
 pub(crate) struct Feet {
     feet: [Foot; 3],
     len: usize,
@@ -49,7 +49,7 @@ impl Feet {
     /// `None` where a rim lies square to the direction.
     pub(crate) fn new<A, B>(
         difference: &MinkowskiDifference<'_, A, B>,
-        places: &[Place],
+        pairs: &[FeaturePair],
         outward: DVec3,
     ) -> Option<Self>
     where
@@ -58,9 +58,9 @@ impl Feet {
     {
         let mut feet = [Foot::default(); 3];
         let along_b = difference.direction_in_b(outward);
-        for (foot, place) in feet.iter_mut().zip(places) {
-            let (in_a, bend_a) = place.a.furthest(-outward)?;
-            let (in_b, bend_b) = place.b.furthest(along_b)?;
+        for (foot, pair) in feet.iter_mut().zip(pairs) {
+            let (in_a, bend_a) = pair.a.furthest(-outward)?;
+            let (in_b, bend_b) = pair.b.furthest(along_b)?;
             *foot = Foot {
                 in_a,
                 in_b,
@@ -71,7 +71,7 @@ impl Feet {
         }
         Some(Self {
             feet,
-            len: places.len(),
+            len: pairs.len(),
         })
     }
 
@@ -171,8 +171,8 @@ impl Feet {
         A: SupportMap + ?Sized,
         B: SupportMap + ?Sized,
     {
-        let pairs = [[0, 1], [1, 2], [2, 0]];
-        let edges = pairs.map(|pair| self.edge(difference, pair));
+        let ends = [[0, 1], [1, 2], [2, 0]];
+        let edges = ends.map(|between| self.edge(difference, between));
         let lengths = edges.map(DVec3::length_squared);
         let side = |better: fn(f64, f64) -> bool, not: usize| {
             (0..3)
@@ -188,16 +188,16 @@ impl Feet {
         };
         let longest = side(|a, b| a > b, 3);
         let shortest = side(|a, b| a < b, longest);
-        let base = if pairs[shortest].contains(&pairs[longest][0]) {
-            pairs[longest][0]
+        let base = if ends[shortest].contains(&ends[longest][0]) {
+            ends[longest][0]
         } else {
-            pairs[longest][1]
+            ends[longest][1]
         };
         let from_base = |index: usize| {
-            if pairs[index][0] == base {
-                (pairs[index][1], edges[index])
+            if ends[index][0] == base {
+                (ends[index][1], edges[index])
             } else {
-                (pairs[index][0], -edges[index])
+                (ends[index][0], -edges[index])
             }
         };
         let (far, long) = from_base(longest);

@@ -33,12 +33,12 @@ impl Rim {
 
 /// Part of a shape on which its support moves smoothly: a vertex or a rim.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Side {
+pub(crate) enum Feature {
     Vertex(DVec3),
     Rim(Rim),
 }
 
-impl Side {
+impl Feature {
     fn of<S: SupportMap + ?Sized>(shape: &S, index: u32) -> Self {
         shape
             .rim(index)
@@ -79,13 +79,13 @@ fn mix(sum: u64, number: u64) -> u64 {
 
 /// Part of the difference on which its support moves smoothly.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Place {
-    pub(crate) a: Side,
-    pub(crate) b: Side,
+pub(crate) struct FeaturePair {
+    pub(crate) a: Feature,
+    pub(crate) b: Feature,
 }
 
-impl Place {
-    /// The place that a vertex of the difference belongs to.
+impl FeaturePair {
+    /// The pair that a vertex of the difference belongs to.
     pub(crate) fn of<A, B>(
         difference: &MinkowskiDifference<'_, A, B>,
         vertex: &DifferencePoint,
@@ -95,13 +95,13 @@ impl Place {
         B: SupportMap + ?Sized,
     {
         Self {
-            a: Side::of(difference.a, vertex.a),
-            b: Side::of(difference.b, vertex.b),
+            a: Feature::of(difference.a, vertex.a),
+            b: Feature::of(difference.b, vertex.b),
         }
     }
 
     pub(crate) fn is_turned(&self) -> bool {
-        matches!(self.a, Side::Rim(_)) || matches!(self.b, Side::Rim(_))
+        matches!(self.a, Feature::Rim(_)) || matches!(self.b, Feature::Rim(_))
     }
 }
 
@@ -117,11 +117,11 @@ where
     B: SupportMap + ?Sized,
 {
     let mut keys = corners.map(|corner| {
-        let of_a = Side::key(difference.a, corner.a);
-        mix(of_a, Side::key(difference.b, corner.b))
+        let of_a = Feature::key(difference.a, corner.a);
+        mix(of_a, Feature::key(difference.b, corner.b))
     });
     keys.sort_unstable();
-    // Twice the same place is once.
+    // Twice the same pair is once.
     if keys[0] == keys[1] {
         keys[0] = 0;
     }
