@@ -149,6 +149,10 @@ impl SupportMap for Shape {
         self.ask(|shape| shape.support(direction, start))
     }
 
+    fn rough_support(&self, direction: DVec3) -> Option<SupportPoint> {
+        self.ask(|shape| shape.rough_support(direction))
+    }
+
     fn vertex(&self, index: u32) -> DVec3 {
         self.ask(|shape| shape.vertex(index))
     }

@@ -62,7 +62,7 @@ where
         Seed::Flat(normal) => return flat(difference, simplex, normal),
     };
     // Nearly every query ends in the small buffers; clearing the large ones costs microseconds.
-    let mut polytope = Polytope::<48, 96>::empty();
+    let mut polytope = Polytope::<32, 64>::empty();
     polytope.start(&tetrahedron);
     let small = expand(difference, &mut polytope);
     if !small.full {

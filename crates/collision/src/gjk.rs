@@ -21,6 +21,10 @@ use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 /// place. Smaller values only run into the repeated-support stop.
 pub(crate) const GAP_TOLERANCE: f64 = 8e-15;
 
+/// The gap, times the largest coordinate, at which rough supports have served: a few times what they fall short of the
+/// furthest on a round shape.
+const ROUGH: f64 = 0.02;
+
 /// Rounds of GJK. Coherent queries take 1 to 4, cold ones on 10⁴ faces about 15; the cap bounds degenerate input.
 const ROUND_LIMIT: u32 = 96;
 
@@ -250,16 +254,52 @@ impl SimplexCache {
             simplex.push(difference.vertex(a, b));
         }
         if simplex.vertices().is_empty() {
-            let guess = difference.interior_point();
-            let direction = if guess == DVec3::ZERO {
-                DVec3::X
-            } else {
-                guess
-            };
-            simplex.push(difference.support(-direction, &DifferencePoint::NONE));
+            approach(difference)
+        } else {
+            simplex
         }
-        simplex
     }
+}
+
+/// A simplex from nothing: the search as far as rough supports lead. They are points of the difference all the same, only
+/// their planes certify nothing; on 10⁴ faces this saves half of the climbs of a cold query (collision.9).
+#[inline(never)]
+fn approach<A, B>(difference: &MinkowskiDifference<'_, A, B>) -> Simplex
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let guess = difference.interior_point();
+    let direction = if guess == DVec3::ZERO {
+        DVec3::X
+    } else {
+        guess
+    };
+    let mut simplex = Simplex::EMPTY;
+    let Some(first) = difference.rough_support(-direction) else {
+        simplex.push(difference.support(-direction, &DifferencePoint::NONE));
+        return simplex;
+    };
+    simplex.push(first);
+    let mut scale = first.point.length();
+    for _ in 0..ROUND_LIMIT {
+        let Some(Nearest { normal, distance }) = simplex.reduce() else {
+            break;
+        };
+        let Some(support) = difference.rough_support(-normal) else {
+            break;
+        };
+        scale = scale.max(support.point.length());
+        let gained = distance - normal.dot(support.point);
+        if simplex.contains_vertex(&support) {
+            break;
+        }
+        simplex.push(support);
+        if gained <= ROUGH * scale {
+            break;
+        }
+    }
+    simplex
 }
 
 /// The search itself, on cores (collision.2).

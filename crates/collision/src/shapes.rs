@@ -184,6 +184,10 @@ impl<S: SupportMap> SupportMap for Rounded<S> {
         self.core.support(direction, start)
     }
 
+    fn rough_support(&self, direction: DVec3) -> Option<SupportPoint> {
+        self.core.rough_support(direction)
+    }
+
     fn vertex(&self, index: u32) -> DVec3 {
         self.core.vertex(index)
     }

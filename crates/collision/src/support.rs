@@ -27,6 +27,12 @@ pub trait SupportMap {
     /// vertex to start climbing from, `u32::MAX` where none is known: a hint, it never changes how far the answer reaches.
     fn support(&self, direction: DVec3, start: u32) -> SupportPoint;
 
+    /// Some vertex about as far along `direction` as any, at a cost that does not grow with the core: with these a search
+    /// that knows nothing yet takes its first steps. `None` where [`SupportMap::support`] costs no more.
+    fn rough_support(&self, _direction: DVec3) -> Option<SupportPoint> {
+        None
+    }
+
     /// Position of a vertex of the core in the shape's frame [m].
     fn vertex(&self, index: u32) -> DVec3;
 
@@ -67,6 +73,10 @@ pub trait SupportMap {
 impl<S: SupportMap + ?Sized> SupportMap for &S {
     fn support(&self, direction: DVec3, start: u32) -> SupportPoint {
         (**self).support(direction, start)
+    }
+
+    fn rough_support(&self, direction: DVec3) -> Option<SupportPoint> {
+        (**self).rough_support(direction)
     }
 
     fn vertex(&self, index: u32) -> DVec3 {
@@ -170,6 +180,24 @@ impl<'s, A: SupportMap + ?Sized, B: SupportMap + ?Sized> MinkowskiDifference<'s,
             a: on_a.index,
             b: on_b.index,
         }
+    }
+
+    /// Some vertex of the difference about as far along `direction` as any; `None` where the furthest costs no more.
+    #[inline]
+    pub(crate) fn rough_support(&self, direction: DVec3) -> Option<DifferencePoint> {
+        let in_b = self.b_from_a_rotation * direction;
+        let (on_a, on_b) = match (self.a.rough_support(-direction), self.b.rough_support(in_b)) {
+            (None, None) => return None,
+            (on_a, on_b) => (
+                on_a.unwrap_or_else(|| self.a.support(-direction, u32::MAX)),
+                on_b.unwrap_or_else(|| self.b.support(in_b, u32::MAX)),
+            ),
+        };
+        Some(DifferencePoint {
+            point: self.difference(on_a.point, on_b.point),
+            a: on_a.index,
+            b: on_b.index,
+        })
     }
 
     /// The vertex of the difference made of two given vertices, at this placement.

@@ -54,6 +54,10 @@ impl SupportMap for Shape {
         self.with(|shape| shape.support(direction, start))
     }
 
+    fn rough_support(&self, direction: DVec3) -> Option<SupportPoint> {
+        self.with(|shape| shape.rough_support(direction))
+    }
+
     fn vertex(&self, index: u32) -> DVec3 {
         self.with(|shape| shape.vertex(index))
     }
