@@ -1,14 +1,14 @@
 //! The verdict on one answer of the crate, by the oracle and by the answer's own certificate.
 
 use glam::DVec3;
-use pliant_collision::{
-    ClosestPoints, SimplexCache, cast_shape, closest_points, distance, overlap,
-};
+use pliant_collision::{ClosestPoints, SimplexCache, closest_points, distance, overlap};
 use pliant_spatial::Pose;
 
 use super::families::Pair;
 use super::shape::Shape;
 use super::truth::Oracle;
+
+mod cast;
 
 /// Largest error allowed, relative to the size.
 pub const TOLERANCE: f64 = 1e-9;
@@ -41,8 +41,12 @@ pub enum Fault {
     Distance,
     /// `overlap` disagrees.
     Overlap,
-    /// A cast along the normal does not hit after the separation.
+    /// A cast along the normal does not hit after the separation, or one into overlap not at all.
     Cast,
+    /// The plane of a cast's hit does not separate the shapes there and before.
+    CastNormal,
+    /// The point of a cast's hit is not on both shapes there.
+    CastWitness,
     /// The answer proves the oracle wrong.
     Oracle,
 }
@@ -145,7 +149,7 @@ impl<'p> Question<'p> {
                 None => verdict.limit(Fault::Distance, self.truth, band),
             }
         }
-        self.cast(&found, &mut verdict);
+        self.casts(&found, &mut verdict);
         verdict
     }
 
@@ -164,31 +168,6 @@ impl<'p> Question<'p> {
             },
             verdict,
         );
-    }
-
-    /// B thrown at A along the normal from where it is apart meets A after the separation: the distance falls one to one.
-    fn cast(&self, found: &ClosestPoints, verdict: &mut Verdict) {
-        let expected = self.truth / self.size;
-        if self.truth <= BLUR * self.size + self.rounding {
-            return;
-        }
-        let motion = -found.normal * (self.truth + 0.25 * self.size);
-        let mut cache = SimplexCache::default();
-        let hit = self.ask(|a, b| cast_shape(a, b, &self.a_from_b, motion, &mut cache));
-        let Some(hit) = hit else {
-            verdict.faults.push((Fault::Cast, expected));
-            return;
-        };
-        let travelled = hit.fraction * motion.length();
-        let allowed = TOLERANCE + self.rounding / self.size;
-        verdict.limit(
-            Fault::Cast,
-            (travelled - self.truth).abs() / self.size,
-            allowed,
-        );
-        // The plane met is the one that was separating.
-        let length = hit.normal.length();
-        verdict.limit(Fault::Cast, (length - 1.0).abs(), UNIT_SLACK);
     }
 
     fn judge(&self, found: &ClosestPoints, verdict: &mut Verdict) {
