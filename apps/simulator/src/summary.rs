@@ -21,7 +21,8 @@ pub(crate) struct Summary {
     pub(crate) max_force_jump_n: f64,
     pub(crate) fallback_ticks: u64,
     pub(crate) held_ticks: u64,
-    pub(crate) late_ticks: u64,
+    /// None where nothing kept to the wall clock.
+    pub(crate) late_ticks: Option<u64>,
     pub(crate) tick_ns: TickTimes,
 }
 
@@ -76,7 +77,7 @@ impl Gauge {
                 max_force_jump_n: 0.0,
                 fallback_ticks: 0,
                 held_ticks: 0,
-                late_ticks: 0,
+                late_ticks: None,
                 tick_ns: TickTimes::default(),
             },
         }
@@ -174,7 +175,9 @@ impl Summary {
             "held, fallback",
             format!("{}, {} ticks", self.held_ticks, self.fallback_ticks),
         );
-        line("late", format!("{} ticks", self.late_ticks));
+        if let Some(late) = self.late_ticks {
+            line("late", format!("{late} ticks"));
+        }
         line("tick time", self.tick_ns.text());
         text
     }

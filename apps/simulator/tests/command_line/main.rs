@@ -416,3 +416,15 @@ fn real_time_takes_as_long_as_it_simulates() {
     json(&["run", &scene("slot"), "--realtime", "--ticks", "300"]);
     assert!(start.elapsed().as_secs_f64() >= 0.299);
 }
+
+/// Without a beat to keep, a count of late ticks would say that the machine is fast enough when nobody looked.
+#[test]
+fn late_ticks_are_counted_in_real_time_only() {
+    let path = scene("slot");
+    let plain = ["run", &path, "--ticks", "50"];
+    let paced = ["run", &path, "--ticks", "50", "--realtime"];
+    assert!(json(&plain)["late_ticks"].is_null());
+    assert!(json(&paced)["late_ticks"].is_u64());
+    let late = |arguments: &[&str]| stdout(&pliant(arguments)).contains("\n  late ");
+    assert!(!late(&plain) && late(&paced));
+}
