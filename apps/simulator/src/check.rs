@@ -83,63 +83,49 @@ fn trajectory(name: &str, bytes: &[u8]) -> Result<String, Failure> {
     for (name, value) in survey::motion(&trajectory, &WorkspaceMap::IDENTITY, SAMPLING_HZ) {
         lines.add(name, value);
     }
-    if merged.duplicates + merged.near_duplicates > 0 {
-        lines.add(
-            "repairs",
-            format!(
-                "{} samples with the time of another and {} almost so were merged",
-                merged.duplicates, merged.near_duplicates
-            ),
-        );
+    for (count, what) in [
+        (merged.duplicates, "the same time as another"),
+        (merged.near_duplicates, "almost the same time as another"),
+    ] {
+        if count > 0 {
+            lines.add("note", format!("samples at {what}, averaged: {count}"));
+        }
     }
     Ok(lines.0)
 }
 
 fn mesh(path: &Path, bytes: &[u8], unit: Option<Unit>) -> Result<String, Failure> {
     let loaded = read_mesh(path, bytes, &Disk)?;
-    // In metres where the unit is known: the reasons below state lengths in metres.
-    let in_metres = match unit {
-        Some(unit) => loaded.mesh.scaled(unit.metres()),
-        None => loaded.mesh.scaled(1.0),
+    // In millimetres where the unit is known, so that every length below is in the same unit.
+    let (factor, length, volume) = match unit {
+        Some(unit) => (unit.metres() * 1e3, "mm", "mm³"),
+        None => (1.0, "file units (give --unit for mm)", "cubic file units"),
     };
-    let in_metres =
-        in_metres.map_err(|error| Failure::Input(format!("{}:1:1: {error}", path.display())))?;
-    let found = inspect(&in_metres);
+    let scaled = loaded
+        .mesh
+        .scaled(factor)
+        .map_err(|error| Failure::Input(format!("{}: {error}", path.display())))?;
+    let found = inspect(&scaled);
     let mut lines = Lines(format!("{}: mesh\n", path.display()));
     lines.add("vertices", found.vertices);
     lines.add("faces", found.faces);
     lines.add("shells", found.shells);
-    surface(&mut lines, &found, &in_metres, unit);
-    let (factor, length, volume) = match unit {
-        Some(_) => (1e3, "mm", "mm³"),
-        None => (1.0, "file units (give --unit for mm)", "cubic file units"),
-    };
-    let size = found.size * factor;
-    lines.add(
-        "size",
-        format!(
-            "{} x {} x {} {length}",
-            round(size.x),
-            round(size.y),
-            round(size.z)
-        ),
-    );
-    lines.add(
-        "volume",
-        format!("{} {volume}", round(found.signed_volume * factor.powi(3))),
-    );
+    surface(&mut lines, &found, &scaled, unit);
+    let [x, y, z] = found.size.to_array().map(round);
+    lines.add("size", format!("{x} x {y} x {z} {length}"));
+    lines.add("volume", format!("{} {volume}", round(found.signed_volume)));
     if found.degenerate_triangles > 0 {
         lines.add("flat faces", found.degenerate_triangles);
     }
     let joined = loaded.mesh.positions().len().saturating_sub(found.vertices);
     if joined > 0 {
         lines.add(
-            "repairs",
-            format!("{joined} vertices at the place of another joined, or unused"),
+            "note",
+            format!("{joined} vertices of the file are at the place of another or in no face"),
         );
     }
     for note in &loaded.report.notes {
-        lines.add("repairs", note);
+        lines.add("note", note);
     }
     Ok(lines.0)
 }
@@ -160,7 +146,7 @@ fn surface(lines: &mut Lines, found: &MeshReport, mesh: &TriangleMesh, unit: Opt
             "convex",
             "no: the mesh encloses no volume and cannot be touched",
         ),
-        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason} (lengths in metres)")),
+        (Err(reason), Some(_)) => lines.add("convex", format!("no: {reason} (lengths in mm)")),
         (Err(_), None) => {
             lines.add(
                 "convex",

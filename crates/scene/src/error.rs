@@ -17,6 +17,11 @@ pub enum Place {
         /// Column in characters, from 1.
         column: usize,
     },
+    /// In a file as a whole, or in one that has no lines.
+    Whole {
+        /// The file as the user named it.
+        file: String,
+    },
     /// In an override, quoted as the user gave it (`--set rate_hz=0`).
     Argument(String),
 }
@@ -25,6 +30,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File { file, line, column } => write!(f, "{file}:{line}:{column}"),
+            Self::Whole { file } => f.write_str(file),
             Self::Argument(argument) => f.write_str(argument),
         }
     }
@@ -46,7 +52,7 @@ pub struct SceneError {
 fn naming(named: Option<&Place>) -> String {
     match named {
         None => String::new(),
-        Some(place @ Place::File { .. }) => format!(" (named at {place})"),
+        Some(place @ (Place::File { .. } | Place::Whole { .. })) => format!(" (named at {place})"),
         Some(place @ Place::Argument(_)) => format!(" (named by {place})"),
     }
 }

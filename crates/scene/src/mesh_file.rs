@@ -13,7 +13,7 @@ pub const MESH_EXTENSIONS: [&str; 4] = ["obj", "stl", "gltf", "glb"];
 /// Reads a mesh in the unit of its file; `files` gives the buffers that a glTF file names.
 ///
 /// # Errors
-/// At the line at fault where the format has lines, else at 1:1; unknown extensions are refused.
+/// At the line at fault where the reader knows one, else at the whole file; unknown extensions are refused.
 pub fn read_mesh(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<Loaded, SceneError> {
     let extension = path.extension().and_then(|extension| extension.to_str());
     let loaded = match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -32,25 +32,33 @@ pub fn read_mesh(path: &Path, bytes: &[u8], files: &dyn Files) -> Result<Loaded,
                 "the file's extension names no mesh format; expected .{}",
                 MESH_EXTENSIONS.join(", .")
             );
-            return Err(at(path, (1, 1), message));
+            return Err(SceneError::new(whole(path), Fault::Geometry(message)));
         }
     };
-    loaded.map_err(|error| match error {
-        LoadError::Line { line, message } => at(path, (line, 1), message),
-        LoadError::Json {
-            line,
-            column,
-            message,
-        } => at(path, (line, column), format!("glTF JSON: {message}")),
-        other => at(path, (1, 1), other.to_string()),
+    loaded.map_err(|error| {
+        let (place, message) = match error {
+            LoadError::Line { line, message } => (at(path, line, 1), message),
+            LoadError::Json {
+                line,
+                column,
+                message,
+            } => (at(path, line, column), format!("glTF JSON: {message}")),
+            other => (whole(path), other.to_string()),
+        };
+        SceneError::new(place, Fault::Geometry(message))
     })
 }
 
-fn at(path: &Path, (line, column): (usize, usize), message: String) -> SceneError {
-    let place = Place::File {
+fn at(path: &Path, line: usize, column: usize) -> Place {
+    Place::File {
         file: path.display().to_string(),
         line,
         column,
-    };
-    SceneError::new(place, Fault::Geometry(message))
+    }
+}
+
+fn whole(path: &Path) -> Place {
+    Place::Whole {
+        file: path.display().to_string(),
+    }
 }

@@ -74,7 +74,7 @@ fn faults_of_geometry_and_files_have_their_place() {
             ROD,
             "mesh(path: \"cube.xyz\", unit: mm)",
             "",
-            "f/cube.xyz:1:1: ",
+            "f/cube.xyz: ",
             "expected .obj",
         ),
         (

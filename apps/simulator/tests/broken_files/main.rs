@@ -140,6 +140,13 @@ fn judge(name: &str, path: &Path, work: &Path, verdict: Verdict) {
         }
         Verdict::Refused(fault) => {
             direct.refused(name, fault);
+            // A fault of the whole file, or of bytes, is none of line 1.
+            let of_line_1 = fault.starts_with(":1:1: ") || direct.err.contains("glTF JSON");
+            assert!(
+                of_line_1 || !direct.err.contains(":1:1: "),
+                "{name}: {}",
+                direct.err
+            );
             in_scene.refused(name, fault);
             let place = "scene.ron:5:";
             assert!(in_scene.err.contains(place), "{name}: {}", in_scene.err);

@@ -108,6 +108,47 @@ fn check_of_a_flat_mesh_does_not_advise_its_hull() {
 }
 
 #[test]
+fn check_states_all_lengths_in_one_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let dented = folder.path().join("dented.obj");
+    // A pyramid of 10 cm whose base is dented by 2 cm.
+    let text = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nv 5 5 10\nv 5 5 2\n\
+        f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
+    fs::write(&dented, text).unwrap();
+    let text = told(&["check", dented.to_str().unwrap(), "--unit", "cm"]);
+    assert!(
+        text.contains("  size        100 x 100 x 100 mm\n"),
+        "{text}"
+    );
+    let convex = text.lines().find(|line| line.starts_with("  convex "));
+    let convex = convex.unwrap();
+    assert!(convex.ends_with("(lengths in mm)"), "{convex}");
+    assert!(convex.contains("(50, 50, 20)"), "{convex}");
+}
+
+#[test]
+fn check_names_a_line_only_where_one_is_at_fault() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, bytes, place) in [
+        ("short.glb", &b"glTF\x02\0\0\0"[..], ": "),
+        ("short.stl", b"too short", ": "),
+        ("empty.obj", b"", ": "),
+        ("empty.gltf", b"{\n}", ":2:1: "),
+        ("bad.obj", b"v 0 0 0\nv 0 x 0\n", ":2:1: "),
+    ] {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let output = pliant(&["check", path.to_str().unwrap()]);
+        let (message, start) = (stderr(&output), format!("{}{place}", path.display()));
+        let rest = message.strip_prefix(&start);
+        assert!(
+            rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit())),
+            "{start} begins no {message}"
+        );
+    }
+}
+
+#[test]
 fn the_head_of_a_table_tells_the_settings_and_its_rows_name_the_object() {
     let folder = tempfile::tempdir().unwrap();
     let path = resting(folder.path(), 0.001, 0.0);

@@ -101,7 +101,7 @@ impl Scanner {
             self.note("fourth coordinates other than 1 ignored", line);
         }
         self.scanned.vertices += 1;
-        limited("vertices", self.scanned.vertices)
+        limited("vertices", self.scanned.vertices).map_err(|error| at_line(line, error.to_string()))
     }
 
     fn face<'a>(
@@ -137,7 +137,7 @@ impl Scanner {
         self.scanned.text.push('\n');
         self.scanned.face_lines.push(line);
         self.triangles += self.corners.len() - 2;
-        limited("triangles", self.triangles)
+        limited("triangles", self.triangles).map_err(|error| at_line(line, error.to_string()))
     }
 
     /// The vertex, counted from 1, of `7`, `7/1`, `7//2`, `7/1/2`, `-1` ….
