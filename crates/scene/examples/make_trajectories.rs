@@ -12,6 +12,7 @@
 mod paths;
 
 use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -115,11 +116,13 @@ impl Path3 {
         })
     }
 
-    /// `world_from_handle`.
+    /// `world_from_handle`. Continuous wherever the direction is, but for straight up: turned the shortest way from straight
+    /// down, as most tools point. Every such rule breaks somewhere, and near there the tool would spin about its own axis.
     fn pose(&self, time: f64) -> Pose {
         let value = |curve: &Trajectory| curve.sample(time).0.translation;
         let direction = value(&self.direction).normalize();
-        let rotation = DQuat::from_rotation_arc(DVec3::X, direction)
+        let rotation = DQuat::from_rotation_arc(DVec3::NEG_Z, direction)
+            * DQuat::from_rotation_y(FRAC_PI_2)
             * DQuat::from_rotation_x(value(&self.roll).x.to_radians());
         Pose::new(rotation, value(&self.tip) - rotation * TIP)
     }

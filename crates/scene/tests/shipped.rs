@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use pliant_scene::{Disk, Scene};
+use pliant_scene::{Disk, Scene, read_trajectory};
 use pliant_sim::{State, TickInput, tick, visual_penetration};
 
 const NAMES: [&str; 6] = [
@@ -33,6 +33,28 @@ fn all_scenes_are_listed_here() {
         .collect();
     found.sort();
     assert_eq!(found, NAMES);
+}
+
+/// A direction that passes the one place where the generator's frame is undefined would spin the tool about its own axis
+/// from one row to the next.
+#[test]
+fn every_shipped_motion_is_one_that_a_hand_can_make() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/trajectories");
+    let mut motions = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.display().to_string();
+        let motion = read_trajectory(&std::fs::read(&path).unwrap(), &name).unwrap();
+        motions += 1;
+        for tick in 0..=(motion.duration() * 1e3) as u32 {
+            let time = motion.start() + f64::from(tick) * 1e-3;
+            let (_, twist) = motion.sample(time);
+            let (linear, angular) = (twist.linear.length(), twist.angular.length());
+            assert!(linear <= 0.2, "{name}, {time} s: {linear} m/s");
+            assert!(angular <= 3.0, "{name}, {time} s: {angular} rad/s");
+        }
+    }
+    assert_eq!(motions, NAMES.len());
 }
 
 #[test]
