@@ -46,7 +46,7 @@ pub struct SurfacePoint {
 }
 
 impl TriangleBvh {
-    /// Builds the tree: about 4 ms for 10⁴ triangles, half a second for 10⁶.
+    /// Builds the tree: some 5 ms for 10⁴ triangles and 0.7 s for 10⁶, on one core of a 2.6 GHz Xeon.
     pub fn new(mesh: &TriangleMesh) -> Self {
         let boxes = (0..)
             .take(mesh.triangles().len())
@@ -58,7 +58,7 @@ impl TriangleBvh {
         }
     }
 
-    /// Takes moved vertices of a mesh with the same triangles and keeps the tree's shape: some 30 ms for 10⁶ triangles.
+    /// Takes moved vertices of a mesh with the same triangles and keeps the tree's shape: some 80 ms for 10⁶ triangles.
     /// Answers are those of a new tree; after large deformations a new tree gives them faster. Vertices count as
     /// neighbours as they did when the tree was built. Allocates nothing.
     ///

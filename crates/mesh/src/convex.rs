@@ -135,6 +135,10 @@ pub enum ConvexityError {
 
 /// A closed, convex, outward-wound mesh.
 ///
+/// Convex to the tolerance it was checked with: where it is dented by less, the search over neighbours may end on a vertex
+/// that much below the highest, so distances and depths of collision queries are good to that tolerance times the diagonal.
+/// A [`ConvexMesh::hull`] is convex to rounding.
+///
 /// Vertices, edges and faces are those of [`ConvexMesh::topology`]; neighbours are also kept in one array
 /// (compressed rows) so that hill climbing touches little memory.
 #[derive(Clone, Debug)]
