@@ -241,3 +241,24 @@ fn witnesses_lie_on_the_side_that_leaves_when_both_sides_are_as_near() {
     let found = solve(&stick, &around, &pose);
     assert!((found.separation + 0.07).abs() < 1e-15, "{found:?}");
 }
+
+/// Which of many equally near points is answered: what the documentation's front page says.
+#[test]
+fn shared_lines_are_met_at_an_end_and_shared_faces_in_the_middle() {
+    let rod = Rounded::capsule(DVec3::ZERO, DVec3::X, 0.1);
+    let pose = Pose::from_translation(DVec3::new(0.3, 0.5, 0.0));
+    let found = closest_points(&rod, &rod, &pose, &mut SimplexCache::default());
+    let x = found.witness_a.x;
+    assert!(
+        (x - 0.3).abs() < 1e-15 || (x - 1.0).abs() < 1e-15,
+        "{found:?}"
+    );
+    assert!((found.witness_b - DVec3::new(x, 0.4, 0.0)).length() < 1e-15);
+    let cube = Cuboid {
+        half: DVec3::splat(0.5),
+    };
+    let pose = Pose::from_translation(DVec3::new(0.4, 0.2, 1.25));
+    let found = closest_points(&cube, &cube, &pose, &mut SimplexCache::default());
+    let middle = DVec3::new(0.2, 0.1, 0.5);
+    assert!((found.witness_a - middle).length() < 1e-14, "{found:?}");
+}
