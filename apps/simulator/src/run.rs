@@ -50,7 +50,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
         trace,
     } = records;
     // Ticks that wait for nothing are never late, whatever they take.
-    gauge.summary.late_ticks = arguments.realtime.then_some(late_ticks);
+    gauge.summary.paced = arguments.realtime;
+    gauge.summary.late_ticks = late_ticks;
     gauge.summary.tick_ns = TickTimes::of(times.clone());
     if let Some(trace) = trace {
         trace.finish()?;

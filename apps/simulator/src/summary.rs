@@ -21,8 +21,11 @@ pub(crate) struct Summary {
     pub(crate) max_force_jump_n: f64,
     pub(crate) fallback_ticks: u64,
     pub(crate) held_ticks: u64,
-    /// None where nothing kept to the wall clock.
-    pub(crate) late_ticks: Option<u64>,
+    /// 0 where nothing kept to the wall clock.
+    pub(crate) late_ticks: u64,
+    /// Whether the run kept to the wall clock.
+    #[serde(skip)]
+    pub(crate) paced: bool,
     pub(crate) tick_ns: TickTimes,
 }
 
@@ -77,7 +80,8 @@ impl Gauge {
                 max_force_jump_n: 0.0,
                 fallback_ticks: 0,
                 held_ticks: 0,
-                late_ticks: None,
+                late_ticks: 0,
+                paced: false,
                 tick_ns: TickTimes::default(),
             },
         }
@@ -175,8 +179,8 @@ impl Summary {
             "held, fallback",
             format!("{}, {} ticks", self.held_ticks, self.fallback_ticks),
         );
-        if let Some(late) = self.late_ticks {
-            line("late", format!("{late} ticks"));
+        if self.paced {
+            line("late", format!("{} ticks", self.late_ticks));
         }
         line("tick time", self.tick_ns.text());
         text
