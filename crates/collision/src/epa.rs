@@ -15,14 +15,15 @@
 
 use glam::DVec3;
 
-use crate::gjk::{GAP_TOLERANCE, Plane, witnesses};
-use crate::rims;
+use crate::gjk::{ClosestPoints, GAP_TOLERANCE, Plane, touched, witnesses};
+use crate::rims::{self, Memory};
 use crate::simplex::{NOISE, Simplex, cross_of, plane_of};
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 mod polytope;
 mod seed;
 mod surface;
+mod sweep;
 
 use polytope::{Growth, Polytope};
 use seed::Seed;
@@ -43,15 +44,16 @@ struct Expansion {
     doubtful: bool,
 }
 
-/// The supporting plane of the difference nearest to the origin, which GJK found inside or on it. `surface` becomes the
-/// start for a placement nearby. Allocates nothing.
+/// The supporting plane of the difference nearest to the origin, which GJK found inside or on it, with the points it touches.
+/// `surface` and `memory` become the start for a placement nearby. Allocates nothing.
 // Kept out of the callers: its buffers would enlarge the stack frame of every query that stays apart.
 #[inline(never)]
 pub(crate) fn shallowest<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     simplex: &Simplex,
     surface: &mut Surface,
-) -> Plane
+    memory: &mut Memory,
+) -> ClosestPoints
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
@@ -59,25 +61,46 @@ where
     surface.clear();
     let tetrahedron = match seed::complete(difference, simplex) {
         Seed::Solid(tetrahedron) => tetrahedron,
-        Seed::Flat(normal) => return flat(difference, simplex, normal),
+        Seed::Flat(normal) => return witnesses(difference, &flat(difference, simplex, normal)),
     };
+    if !memory.is_empty()
+        && let Some(answer) = sweep::sweep(difference, &tetrahedron, memory)
+    {
+        *memory = answer.memory;
+        return answer.found;
+    }
+    *memory = Memory::default();
     // Nearly every query ends in the small buffers; clearing the large ones costs microseconds.
     let mut polytope = Polytope::<32, 64>::empty();
     polytope.start(&tetrahedron);
     let small = expand(difference, &mut polytope);
     if !small.full {
         polytope.remember(surface);
-        return if small.doubtful {
-            shallowest_on_rims(difference, &polytope, small.plane)
+    }
+    if !rims::meets(difference, &small.plane.simplex) {
+        let plane = if small.full {
+            larger::<_, _, 1024, 2048>(difference, &tetrahedron)
         } else {
             small.plane
         };
+        return witnesses(difference, &plane);
     }
-    if rims::meets(difference, &small.plane.simplex) {
+    if small.full || small.doubtful {
+        if let Some(answer) = sweep::sweep(difference, &tetrahedron, memory) {
+            *memory = answer.memory;
+            return answer.found;
+        }
         // On rims no number of faces is enough; these tell where to start.
-        return larger::<_, _, 320, 640>(difference, &tetrahedron);
+        let plane = larger::<_, _, 320, 640>(difference, &tetrahedron);
+        return witnesses(difference, &plane);
     }
-    larger::<_, _, 1024, 2048>(difference, &tetrahedron)
+    match rims::settle(difference, &small.plane) {
+        Some(answer) => {
+            *memory = answer.memory;
+            answer.found
+        }
+        None => touched(difference, &small.plane),
+    }
 }
 
 /// Expands a tetrahedron with room for more vertices and faces.

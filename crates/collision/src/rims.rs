@@ -6,57 +6,35 @@
 //! supports are known as functions of the direction. What remains is a smooth problem with two unknowns (collision.11):
 //! the direction in which the pairs of features met are equally high and the way out crosses the surface between them.
 
-use glam::{DVec2, DVec3};
-use pliant_spatial::Pose;
+use glam::DVec3;
 
-use crate::gjk::{ClosestPoints, Exit, Goal, Plane, SimplexCache, search};
+use crate::gjk::{ClosestPoints, Plane};
 use crate::simplex::Simplex;
 use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 
 mod feature;
 mod foot;
+mod memory;
+mod search;
 
 use feature::FeaturePair;
 pub use feature::Rim;
 pub(crate) use feature::key;
-use foot::Feet;
+pub(crate) use memory::Memory;
+use search::{Run, Search};
 
-/// Distance between the foot of a plane and the points met there, and height of a pair over the plane of others, that
-/// rounding explains, times the largest coordinate.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
-
-/// Gap or depth in which rounding leaves nothing to be told about the direction, times the largest coordinate.
-const TOUCHING: f64 = 256.0 * f64::EPSILON;
-
-/// Newton's steps on the pairs met first: where these are the right ones three or four are enough.
-const STEP_LIMIT: u32 = 8;
-
-/// Descents with pairs found anew.
-const DESCENT_LIMIT: u32 = 48;
-
-/// Largest turn of one step [rad].
-const LONGEST_STEP: f64 = 0.5;
-
-/// A turn after which the same pairs are still likely to be met [rad].
-const SHORT_STEP: f64 = 1e-3;
-
-/// Of a step that leads over a ridge; then the ridge itself is the answer.
-const SHORTEST_STRIDE: f64 = 1e-6;
-
-/// Turn that tells apart pairs of equal height [rad].
-const TILT: f64 = 1e-8;
-
-/// Cosine of a normal with the axis of a disc that might be the face met.
-const NEARLY_SQUARE: f64 = 0.999_999;
-
-/// How far beyond the way out the nearest point is sought that tells the pairs, times the largest coordinate.
-const LEAD: f64 = 1e-3;
+/// An answer with what a later query starts from.
+#[derive(Clone, Copy)]
+pub(crate) struct Answer {
+    pub(crate) found: ClosestPoints,
+    pub(crate) memory: Memory,
+}
 
 /// The answer of a plane found by GJK or EPA made exact (collision.11). `None` where no rim is met, or nothing better was found.
 pub(crate) fn settle<A, B>(
     difference: &MinkowskiDifference<'_, A, B>,
     plane: &Plane,
-) -> Option<ClosestPoints>
+) -> Option<Answer>
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
@@ -76,368 +54,125 @@ where
     simplex.vertices().iter().any(turned)
 }
 
-#[inline(never)]
-fn refine<A, B>(difference: &MinkowskiDifference<'_, A, B>, plane: &Plane) -> Option<ClosestPoints>
+/// Whether a support has both its features in common with corners of a face.
+pub(crate) fn shares_features<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    corners: &[DifferencePoint; 3],
+    support: &DifferencePoint,
+) -> bool
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let pair = FeaturePair::of(difference, support);
+    corners
+        .iter()
+        .any(|corner| FeaturePair::of(difference, corner) == pair)
+}
+
+/// [`settle`], given up where it comes close to an answer that is known already.
+pub(crate) fn settle_elsewhere<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    plane: &Plane,
+    corners: &[DifferencePoint; 3],
+    known: &Memory,
+    around: f64,
+) -> (bool, Option<Answer>)
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
     let mut search = Search::new(difference, plane);
-    // Touching to rounding every direction is the answer; the one from the feature is the one that makes sense.
-    if plane.separation.abs() <= TOUCHING * search.scale {
-        return None;
+    search.origin.1 = around;
+    for corner in corners {
+        search.take(FeaturePair::of(difference, corner));
     }
-    search.try_discs();
-    if !search.run() {
-        search.descend(plane);
-    }
-    let Settled {
-        outward,
-        reach,
-        in_a,
-        in_b,
-    } = search.best?;
-    let core_b = difference.a_from_b.transform_point(in_b);
-    let (radius_a, radius_b) = (difference.a.radius(), difference.b.radius());
-    Some(ClosestPoints {
-        witness_a: in_a - outward * radius_a,
-        witness_b: core_b + outward * radius_b,
-        normal: -outward,
-        separation: -reach - (radius_a + radius_b),
-    })
+    search.known =
+        Search::from_memory(difference, known).map(|known| (known.outward, known.pairs, known.len));
+    search.settle(plane);
+    (search.wandered, search.answer())
 }
 
-struct Search<'d, 's, A: ?Sized, B: ?Sized> {
-    difference: &'d MinkowskiDifference<'s, A, B>,
-    scale: f64,
-    outward: DVec3,
-    pairs: [FeaturePair; 3],
-    len: usize,
-    /// Lowest sum of height and miss so far, with what it belongs to unless that is the start.
-    merit: f64,
-    best: Option<Settled>,
-}
-
-/// A direction with the height of its plane and the points met, each in its shape's frame.
-struct Settled {
-    outward: DVec3,
-    reach: f64,
-    in_a: DVec3,
-    in_b: DVec3,
-}
-
-/// What the pairs make of a direction.
-struct Measure {
-    /// Height of the plane that supports the difference.
-    reach: f64,
-    /// To rounding the pairs are the highest, and the way out passes between them,
-    closed: bool,
-    /// else, of pairs that are the highest, the one on the wrong side of the others, and the direction away from it.
-    outside: Option<(usize, DVec3)>,
-    /// It also meets the surface there, and the height falls in no direction.
-    exact: bool,
-    /// The turn to the next direction [rad].
-    change: DVec3,
-    /// The pairs levelled.
-    pairs: ([FeaturePair; 3], usize),
-    /// The pair that reaches furthest.
-    highest: FeaturePair,
-}
-
-impl<'d, 's, A, B> Search<'d, 's, A, B>
+#[inline(never)]
+fn refine<A, B>(difference: &MinkowskiDifference<'_, A, B>, plane: &Plane) -> Option<Answer>
 where
     A: SupportMap + ?Sized,
     B: SupportMap + ?Sized,
 {
-    fn new(difference: &'d MinkowskiDifference<'s, A, B>, plane: &Plane) -> Self {
-        let mut foot = DVec3::ZERO;
-        let mut scale = 0.0_f64;
-        let vertices = plane.simplex.vertices();
-        for (vertex, &weight) in vertices.iter().zip(plane.simplex.weights()) {
-            let point = difference.vertex(vertex.a, vertex.b).point;
-            foot += point * weight;
-            scale = scale.max(point.length()).max(difference.size_at(vertex));
-        }
-        let miss = (foot - plane.normal * plane.separation).length();
-        let mut search = Self {
-            difference,
-            scale,
-            outward: -plane.normal,
-            pairs: [FeaturePair::of(difference, &vertices[0]); 3],
-            len: 0,
-            merit: miss - plane.separation,
-            best: None,
-        };
-        search.take_pairs(&plane.simplex);
-        search
-    }
+    let mut search = Search::new(difference, plane);
+    search.settle(plane);
+    search.answer()
+}
 
-    /// The pairs of a simplex, each once.
-    fn take_pairs(&mut self, simplex: &Simplex) {
-        self.len = 0;
-        for vertex in simplex.vertices() {
-            let pair = FeaturePair::of(self.difference, vertex);
-            if !self.pairs[..self.len].contains(&pair) && self.len < 3 {
-                self.pairs[self.len] = pair;
-                self.len += 1;
-            }
-        }
+/// The local answer nearest to a remembered one, at a placement nearby: certified as a bound of the depth like any other, and
+/// among directions equally deep the one reached without turning. `None` where the search does not close.
+#[inline(never)]
+pub(crate) fn resume<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    memory: &Memory,
+) -> Option<Answer>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let mut search = Search::from_memory(difference, memory)?;
+    search.try_discs();
+    if !search.is_settled() && search.run() == Run::Lost {
+        return settle_towards(difference, memory.outward());
     }
+    search.is_settled().then(|| search.answer()).flatten()
+}
 
-    /// The planes of the rims' discs where they are almost the one found: three corners of a rim close to each other
-    /// tell its plane badly.
-    fn try_discs(&mut self) {
-        let difference = self.difference;
-        let found = self.outward;
-        for pair in self.pairs.into_iter().take(self.len) {
-            for (side, rim) in [pair.a.rim(), pair.b.rim()].into_iter().enumerate() {
-                let Some(rim) = rim else { continue };
-                let axis = if side == 0 {
-                    rim.axis
-                } else {
-                    difference.direction_in_a(rim.axis)
-                };
-                let along = axis.dot(found);
-                if along.abs() < NEARLY_SQUARE {
-                    continue;
-                }
-                let outward = axis * along.signum();
-                let support = difference.support(outward, &DifferencePoint::NONE);
-                let reach = support.point.dot(outward);
-                let exit = outward * reach;
-                let mut points = [
-                    difference.a.vertex(support.a),
-                    difference.b.vertex(support.b),
-                ];
-                points[side] = rim.centre;
-                let aside = exit - difference.difference(points[0], points[1]);
-                let within = aside.clamp_length_max(rim.radius);
-                points[side] += if side == 0 {
-                    -within
-                } else {
-                    difference.direction_in_b(within)
-                };
-                let miss = exit - difference.difference(points[0], points[1]);
-                self.offer(outward, reach, points, miss);
-            }
-        }
+/// The local answer found from a direction alone. `None` where the search does not close.
+pub(crate) fn settle_towards<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    outward: DVec3,
+) -> Option<Answer>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let support = difference.support(outward, &DifferencePoint::NONE);
+    let mut simplex = Simplex::EMPTY;
+    simplex.push(support);
+    let mut search = Search::from_pair(difference, outward, &support);
+    search.try_discs();
+    if !search.is_settled() {
+        search.descend(&simplex);
     }
+    search.is_settled().then(|| search.answer()).flatten()
+}
 
-    /// Notes an answer if it is the best so far: the sum of height and miss counts.
-    fn offer(&mut self, outward: DVec3, reach: f64, [in_a, in_b]: [DVec3; 2], miss: DVec3) {
-        let merit = miss.length() + reach;
-        if merit < self.merit {
-            self.merit = merit;
-            self.best = Some(Settled {
-                outward,
-                reach,
-                in_a,
-                in_b,
-            });
-        }
-    }
+/// The axes of the rims that a vertex is on, both ways, in A's frame; zero where there is none.
+pub(crate) fn axes<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    vertex: &DifferencePoint,
+) -> [DVec3; 4]
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    let pair = FeaturePair::of(difference, vertex);
+    let of_a = pair.a.rim().map_or(DVec3::ZERO, |rim| rim.axis);
+    let of_b = pair.b.rim().map_or(DVec3::ZERO, |rim| rim.axis);
+    let of_b = difference.direction_in_a(of_b);
+    [of_a, -of_a, of_b, -of_b]
+}
 
-    /// Newton's method on the pairs as they are. Whether that was all.
-    fn run(&mut self) -> bool {
-        for _ in 0..STEP_LIMIT {
-            match self.measure() {
-                Some(measure) if measure.closed => {
-                    if measure.exact {
-                        return true;
-                    }
-                    self.outward = (self.outward + measure.change).normalize();
-                }
-                Some(Measure {
-                    outside: Some((index, towards)),
-                    ..
-                }) if self.exchange(index, towards) => {}
-                _ => return false,
-            }
-        }
-        false
+/// The answer in a direction if the way out leads through a disc square to it.
+pub(crate) fn through_disc<A, B>(
+    difference: &MinkowskiDifference<'_, A, B>,
+    outward: DVec3,
+) -> Option<Answer>
+where
+    A: SupportMap + ?Sized,
+    B: SupportMap + ?Sized,
+{
+    if outward == DVec3::ZERO {
+        return None;
     }
-
-    /// Gives a pair for the one of equal height that lies furthest in a direction. Whether there is one.
-    fn exchange(&mut self, index: usize, towards: DVec3) -> bool {
-        let tilted = self.outward + towards * TILT;
-        let support = self.difference.support(tilted, &DifferencePoint::NONE);
-        let pair = FeaturePair::of(self.difference, &support);
-        let new = !self.pairs[..self.len].contains(&pair);
-        if new {
-            self.pairs[index] = pair;
-        }
-        new
-    }
-
-    /// [`Search::run`] with the pairs found anew after every long step, and never uphill.
-    fn descend(&mut self, plane: &Plane) {
-        let mut cache = SimplexCache::default();
-        cache.remember(&plane.simplex);
-        self.outward = -plane.normal;
-        let mut lowest: Option<(DVec3, Measure)> = None;
-        let mut stride = 1.0;
-        for _ in 0..DESCENT_LIMIT {
-            if self.project(&mut cache).is_none() {
-                return;
-            }
-            let projected = self.outward;
-            let Some(measure) = self.closing_in() else {
-                return;
-            };
-            if measure.exact {
-                return;
-            }
-            match &lowest {
-                // Over a ridge: a shorter step.
-                Some((outward, before)) if measure.reach > before.reach + ROUNDING * self.scale => {
-                    stride *= 0.25;
-                    if stride < SHORTEST_STRIDE {
-                        self.outward = *outward;
-                        self.meet(before.pairs, measure.highest);
-                        return;
-                    }
-                    self.outward = (outward + before.change * stride).normalize();
-                }
-                _ => {
-                    stride = 1.0;
-                    if !measure.closed {
-                        // Pairs that tell nothing: on from where the nearest point is.
-                        self.outward = projected;
-                    }
-                    let outward = self.outward;
-                    let change = if measure.closed {
-                        measure.change
-                    } else {
-                        DVec3::ZERO
-                    };
-                    self.outward = (outward + change).normalize();
-                    lowest = Some((outward, Measure { change, ..measure }));
-                }
-            }
-        }
-    }
-
-    /// Measures, and takes short steps while they close in.
-    fn closing_in(&mut self) -> Option<Measure> {
-        let mut measure = self.measure()?;
-        for _ in 0..STEP_LIMIT {
-            if measure.exact || !measure.closed || measure.change.length() > SHORT_STEP {
-                break;
-            }
-            self.outward = (self.outward + measure.change).normalize();
-            measure = self.measure()?;
-        }
-        Some(measure)
-    }
-
-    /// Ends where the pairs of one side of a ridge and the highest beyond it are level.
-    fn meet(&mut self, (pairs, len): ([FeaturePair; 3], usize), beyond: FeaturePair) {
-        self.pairs = pairs;
-        self.len = len;
-        if len < 3 && !pairs[..len].contains(&beyond) {
-            self.pairs[len] = beyond;
-            self.len += 1;
-        }
-        self.run();
-    }
-
-    /// Turns to where the point of the difference is nearest to one beyond the way out, never a deeper direction, and takes
-    /// the pairs met there.
-    fn project(&mut self, cache: &mut SimplexCache) -> Option<()> {
-        let start = self
-            .difference
-            .support(self.outward, &DifferencePoint::NONE);
-        let reach = start.point.dot(self.outward);
-        let beyond = self.outward * (reach + LEAD * self.scale);
-        let a_from_b = self.difference.a_from_b;
-        let pose = Pose::new(a_from_b.rotation, a_from_b.translation - beyond);
-        let moved = MinkowskiDifference::new(self.difference.a, self.difference.b, &pose);
-        let Exit::Apart(found) = search(&moved, cache, Goal::Distance) else {
-            return None;
-        };
-        cache.remember(&found.simplex);
-        self.outward = -found.normal;
-        self.take_pairs(&found.simplex);
-        Some(())
-    }
-
-    /// Levels the direction and weighs its pairs. `None` where one of them has no support in it.
-    fn measure(&mut self) -> Option<Measure> {
-        let difference = self.difference;
-        let outward = loop {
-            let feet = Feet::new(difference, &self.pairs[..self.len], self.outward)?;
-            match feet.level(difference, self.outward) {
-                Ok(level) => break level,
-                Err(between) => {
-                    self.len -= 1;
-                    self.pairs.swap(between, self.len);
-                }
-            }
-        };
-        self.outward = outward;
-        let mut feet = Feet::new(difference, &self.pairs[..self.len], outward)?;
-        let support = difference.support(outward, &DifferencePoint::NONE);
-        let highest = feet.height(outward);
-        // Rims are polygons to their support mapping: the circle may reach further by rounding.
-        let reach = support.point.dot(outward).max(highest);
-        let exit = outward * reach;
-        let offset = feet.weigh(difference, exit);
-        let met = feet.met(exit);
-        self.offer(outward, reach, [met.in_a, met.in_b], met.miss);
-        let rounding = ROUNDING * self.scale;
-        let (least, weight) = feet.least_weight();
-        let supports = reach - highest <= rounding;
-        let closed = supports && weight >= -ROUNDING;
-        let outside = (supports && !closed).then(|| (least, feet.away_from(difference, least)));
-        let (change, crest) = self.newton(&feet, offset, reach);
-        Some(Measure {
-            reach,
-            closed,
-            outside,
-            exact: closed && !crest && offset.length() <= rounding,
-            change,
-            pairs: (self.pairs, self.len),
-            highest: FeaturePair::of(difference, &support),
-        })
-    }
-
-    /// Newton's step for the height of the plane in the directions that keep the pairs level, and whether it leads off a
-    /// crest.
-    fn newton(&self, feet: &Feet, offset: DVec3, reach: f64) -> (DVec3, bool) {
-        let outward = self.outward;
-        let axes = match self.len {
-            1 => {
-                let (u, w) = outward.any_orthonormal_pair();
-                [u, w]
-            }
-            2 => {
-                let along = feet.edge(self.difference, [0, 1]);
-                [outward.cross(along).normalize_or_zero(), DVec3::ZERO]
-            }
-            _ => return (DVec3::ZERO, false),
-        };
-        let slope = DVec2::new(offset.dot(axes[0]), offset.dot(axes[1]));
-        let [uu, uw, ww] = feet.bend(axes);
-        let (uu, ww) = (uu - reach, ww - reach * axes[1].length_squared());
-        // Axes of the second derivative: downhill along each, also where it bends the other way.
-        let turn = 0.5 * (2.0 * uw).atan2(uu - ww);
-        let (sine, cosine) = turn.sin_cos();
-        let mut change = DVec2::ZERO;
-        let mut crest = false;
-        for axis in [DVec2::new(cosine, sine), DVec2::new(-sine, cosine)] {
-            let bend = uu * axis.x * axis.x + 2.0 * uw * axis.x * axis.y + ww * axis.y * axis.y;
-            let slope = slope.dot(axis);
-            let falls = bend < -ROUNDING * self.scale;
-            crest |= falls;
-            if falls || bend.abs() * LONGEST_STEP <= slope.abs() {
-                if falls || slope != 0.0 {
-                    change -= axis * (LONGEST_STEP * slope.signum());
-                }
-            } else {
-                change -= axis * (slope / bend.abs());
-            }
-        }
-        let change = axes[0] * change.x + axes[1] * change.y;
-        (change.clamp_length_max(LONGEST_STEP), crest)
-    }
+    let support = difference.support(outward, &DifferencePoint::NONE);
+    let mut search = Search::from_pair(difference, outward, &support);
+    search.try_discs();
+    search.is_settled().then(|| search.answer()).flatten()
 }

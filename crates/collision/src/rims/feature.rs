@@ -60,6 +60,13 @@ impl Feature {
         }
     }
 
+    /// Which quarter of a rim is met in a direction.
+    fn quarter(self, direction: DVec3) -> u64 {
+        let Self::Rim(rim) = self else { return 0 };
+        let (u, w) = rim.axis.any_orthonormal_pair();
+        u64::from(direction.dot(u) >= 0.0) << 1 | u64::from(direction.dot(w) >= 0.0)
+    }
+
     /// The same number for the same vertex or rim.
     fn key<S: SupportMap + ?Sized>(shape: &S, index: u32) -> u64 {
         let numbers = match shape.rim(index) {
@@ -78,10 +85,19 @@ fn mix(sum: u64, number: u64) -> u64 {
 }
 
 /// Part of the difference on which its support moves smoothly.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(crate) struct FeaturePair {
     pub(crate) a: Feature,
     pub(crate) b: Feature,
+    /// Vertices of A and B that it was found by: on a rim, any of its own.
+    pub(crate) vertices: [u32; 2],
+}
+
+/// However they were found.
+impl PartialEq for FeaturePair {
+    fn eq(&self, other: &Self) -> bool {
+        self.a == other.a && self.b == other.b
+    }
 }
 
 impl FeaturePair {
@@ -97,6 +113,7 @@ impl FeaturePair {
         Self {
             a: Feature::of(difference.a, vertex.a),
             b: Feature::of(difference.b, vertex.b),
+            vertices: [vertex.a, vertex.b],
         }
     }
 
@@ -129,8 +146,8 @@ where
         keys[1] = 0;
     }
     keys.sort_unstable();
-    let size = outward.abs();
-    let side = size.cmpeq(DVec3::splat(size.max_element())).bitmask();
-    let direction = side << 3 | outward.cmpge(DVec3::ZERO).bitmask();
-    keys.into_iter().fold(u64::from(direction), mix)
+    let pair = FeaturePair::of(difference, &corners[0]);
+    let of_a = pair.a.quarter(-outward);
+    let of_b = pair.b.quarter(difference.direction_in_b(outward));
+    keys.into_iter().fold(of_a << 2 | of_b, mix)
 }
