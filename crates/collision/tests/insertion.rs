@@ -230,3 +230,90 @@ fn an_opposite_exit_is_taken_when_it_becomes_shallower() {
         assert!((found.separation + depth).abs() < 1e-10, "{tick} {found:?}");
     }
 }
+
+/// A plate that slides and tilts over another, as a random walk found it.
+fn over_a_plate() -> [Pose; 4] {
+    [
+        Pose::new(
+            DQuat::from_xyzw(
+                -4.559_653_119_421_149e-17,
+                8.786_949_509_405_769e-17,
+                -6.221_433_970_290_018e-17,
+                1.0,
+            ),
+            DVec3::new(
+                -0.009_011_106_404_065_845,
+                0.089_145_403_648_581_99,
+                8.689_289_970_614_94e-06,
+            ),
+        ),
+        Pose::new(
+            DQuat::from_xyzw(
+                -0.002_009_682_059_286_826_4,
+                0.002_669_280_946_824_432_7,
+                0.001_358_921_246_293_134_7,
+                0.999_993_494_703_987_5,
+            ),
+            DVec3::new(
+                -0.008_405_553_136_814_403,
+                0.088_471_596_554_381_29,
+                0.001_042_533_195_218_815_7,
+            ),
+        ),
+        Pose::new(
+            DQuat::from_xyzw(
+                -0.000_884_277_190_055_904_2,
+                0.003_786_121_468_302_735,
+                -0.000_137_679_550_048_238_9,
+                0.999_992_432_162_574,
+            ),
+            DVec3::new(
+                -0.006_993_407_198_756_824,
+                0.088_409_026_403_178_15,
+                0.001_169_452_490_908_771_2,
+            ),
+        ),
+        Pose::new(
+            DQuat::from_xyzw(
+                -0.001_798_616_992_954_372_9,
+                0.003_245_938_217_096_520_7,
+                0.002_516_048_253_701_726,
+                0.999_989_949_131_084_4,
+            ),
+            DVec3::new(
+                -0.006_400_703_479_824_576_5,
+                0.088_820_847_573_772_68,
+                2.923_053_590_300_111e-06,
+            ),
+        ),
+    ]
+}
+
+/// The base disc of the remembered pair is not the highest point along its axis, which the apex is.
+#[test]
+fn a_disc_below_the_apex_is_no_way_out() {
+    let a = Cone {
+        half_length: 8.003_466_664_620_659e-06,
+        base_radius: 0.356_840_534_670_823_44,
+        top_radius: 0.0,
+    };
+    let b = Cone {
+        half_length: 6.858_233_059_591_805e-07,
+        base_radius: 0.177_287_785_164_753_24,
+        top_radius: 0.014_938_319_802_307_969,
+    };
+    let poses = over_a_plate();
+    let mut cache = SimplexCache::default();
+    for pose in &poses {
+        let warm = closest_points(&a, &b, pose, &mut cache);
+        let cold = closest_points(&a, &b, pose, &mut SimplexCache::default());
+        assert!(
+            (warm.separation - cold.separation).abs() < 1e-12,
+            "{warm:?} {cold:?}"
+        );
+        assert!(
+            warm.witness_a.z.abs() <= a.half_length * (1.0 + 1e-9),
+            "{warm:?}"
+        );
+    }
+}

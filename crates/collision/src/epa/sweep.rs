@@ -26,6 +26,9 @@ const FINE: f64 = 0.002;
 /// Faces that grow for that reason in one sweep: it bounds the time where all directions are nearly equally deep.
 const PATIENCE: u32 = 24;
 
+/// Of an answer that is given up for a search without the memory, with more faces, times the largest coordinate.
+const DOUBT: f64 = 1e-12;
+
 /// Most combinations of features that are settled in one sweep.
 const MOST_FEATURES: usize = 96;
 
@@ -94,7 +97,8 @@ where
     if best.count == MOST_FEATURES {
         return None;
     }
-    best.answer
+    let closed = |answer: &Answer| answer.found.doubt() <= DOUBT * scale;
+    best.answer.filter(closed)
 }
 
 impl Best {

@@ -178,7 +178,12 @@ where
             return;
         }
         self.try_discs();
-        if !self.is_settled() && self.run() == Run::Lost {
+        if self.is_settled() {
+            return;
+        }
+        let run = self.run();
+        // Exact on the way down from somewhere else is no answer, unless others are looked for as well.
+        if run == Run::Lost || self.known.is_none() && !self.is_settled() {
             self.outward = -plane.normal;
             self.descend(&plane.simplex);
             self.wandered = true;

@@ -38,7 +38,9 @@ where
                 ];
                 points[side] = rim.centre;
                 let aside = exit - difference.difference(points[0], points[1]);
-                let within = aside.clamp_length_max(rim.radius);
+                // The disc met need not be the highest one: what is across its plane stays missing.
+                let flat = aside - outward * outward.dot(aside);
+                let within = flat.clamp_length_max(rim.radius);
                 points[side] += if side == 0 {
                     -within
                 } else {
