@@ -85,21 +85,18 @@ where
         };
         return witnesses(difference, &plane);
     }
-    if small.full || small.doubtful {
-        if let Some(answer) = sweep::sweep(difference, &tetrahedron, memory) {
-            *memory = answer.memory;
-            return answer.found;
-        }
-        // On rims no number of faces is enough; these tell where to start.
-        let plane = larger::<_, _, 320, 640>(difference, &tetrahedron);
-        return witnesses(difference, &plane);
-    }
-    match rims::settle(difference, &small.plane) {
+    // On rims no number of faces is enough; these tell where to start.
+    let plane = if small.full || small.doubtful {
+        larger::<_, _, 320, 640>(difference, &tetrahedron)
+    } else {
+        small.plane
+    };
+    match rims::settle(difference, &plane) {
         Some(answer) => {
             *memory = answer.memory;
             answer.found
         }
-        None => touched(difference, &small.plane),
+        None => touched(difference, &plane),
     }
 }
 

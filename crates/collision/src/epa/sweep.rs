@@ -17,8 +17,8 @@ use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 /// Depth by which another direction must be shallower than the remembered one, times the largest coordinate.
 const TIE: f64 = 1e-12;
 
-/// How far the difference reaches over a face that is left to Newton, times that reach: about 0.3 rad of a circle.
-const FLAT: f64 = 0.03;
+/// How far the difference reaches over a face that is left to Newton, times that reach: about 0.2 rad of a circle.
+const FLAT: f64 = 0.01;
 
 /// The same where Newton's method has left the face's surroundings by more than steps downhill.
 const FINE: f64 = 0.002;
