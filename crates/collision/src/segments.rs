@@ -85,7 +85,8 @@ impl Segments {
             let on_a = offset.cross(half_b).dot(normal) / volume;
             let on_b = offset.cross(half_a).dot(normal) / volume;
             if on_a.abs() <= 1.0 && on_b.abs() <= 1.0 {
-                return (on_a, normal * normal.dot(offset));
+                let gap = normal * normal.dot(offset);
+                return (self.beside_b(on_a), gap);
             }
         }
         let mut best = (0.0, DVec3::INFINITY);
@@ -112,6 +113,18 @@ impl Segments {
             offer(end, -gap);
         }
         best
+    }
+
+    /// Where lines cross under a tiny angle rounding shifts the place along them, and may shift it past the end of B: then the
+    /// point of A beside that end.
+    fn beside_b(&self, on_a: f64) -> f64 {
+        let along = self.half_b.dot(self.half_a * on_a - self.offset);
+        let whole = self.half_b.length_squared();
+        if along.abs() <= whole {
+            return on_a;
+        }
+        let end = self.offset + self.half_b * along.signum();
+        (self.half_a.dot(end) / self.half_a.length_squared()).clamp(-1.0, 1.0)
     }
 
     /// Gap between the supporting planes along a direction [m].

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use pliant_collision::{
     ClosestPoints, Cuboid, Point, PointSet, Rounded, Segment, SimplexCache, SupportMap, Triangle,
-    closest_points, distance, overlap,
+    cast_shape, closest_points, distance, overlap,
 };
 use pliant_spatial::Pose;
 
@@ -261,4 +261,45 @@ fn shared_lines_are_met_at_an_end_and_shared_faces_in_the_middle() {
     let found = closest_points(&cube, &cube, &pose, &mut SimplexCache::default());
     let middle = DVec3::new(0.2, 0.1, 0.5);
     assert!((found.witness_a - middle).length() < 1e-14, "{found:?}");
+}
+
+/// Parallel to 1.5e-13 rad and thrown onto one line: rounding decides where the lines cross, and put the point of A past the end
+/// of B by 1.2e-5 m.
+#[test]
+fn segments_that_cross_at_almost_no_angle_meet_where_both_are() {
+    let f = f64::from_bits;
+    let v = |x: u64, y: u64, z: u64| DVec3::new(f(x), f(y), f(z));
+    let half_a = v(
+        0x3fb8_c63f_757f_98f7,
+        0x3fd2_c85f_8f94_bdb5,
+        0xbfd0_c61a_c783_a3b9,
+    );
+    let half_b = v(
+        0xbfcc_2b0d_dbb3_933c,
+        0x3fb8_1504_a79f_232d,
+        0x3fcc_461d_d8e2_80e6,
+    );
+    let [a, b] = [half_a, half_b].map(|half| Segment { a: -half, b: half });
+    let rotation = DQuat::from_xyzw(
+        f(0x3fa5_71d4_de8f_7886),
+        f(0x3fec_6f80_cd9f_0638),
+        f(0x3fd4_8a08_9e88_0075),
+        f(0xbfd4_ccc0_0937_76f0),
+    );
+    let apart = Pose::new(
+        rotation,
+        v(
+            0x3f5d_dfde_d384_9f1e,
+            0xbfc3_8b0c_18ad_4161,
+            0x3fbe_5f92_a033_e8df,
+        ),
+    );
+    let found = solve(&a, &b, &apart);
+    let motion = -found.normal * (found.separation + 0.1);
+    let hit = cast_shape(&a, &b, &apart, motion, &mut SimplexCache::default()).unwrap();
+    let there = Pose::new(rotation, apart.translation + motion * hit.fraction);
+    let [start, end] = [b.a, b.b].map(|end| there.transform_point(end));
+    let along = end - start;
+    let share = ((hit.witness - start).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+    assert!(hit.witness.distance(start + along * share) < 1e-15);
 }
