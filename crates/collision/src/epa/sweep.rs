@@ -18,10 +18,10 @@ use crate::support::{DifferencePoint, MinkowskiDifference, SupportMap};
 const TIE: f64 = 1e-12;
 
 /// How far the difference reaches over a face that is left to Newton, times that reach: about 0.2 rad of a circle.
-const FLAT: f64 = 0.01;
+const FLAT: f64 = 0.005;
 
 /// The same where Newton's method has left the face's surroundings by more than steps downhill.
-const FINE: f64 = 0.002;
+const FINE: f64 = 0.0005;
 
 /// Faces that grow for that reason in one sweep: it bounds the time where all directions are nearly equally deep.
 const PATIENCE: u32 = 24;
