@@ -1,5 +1,6 @@
 //! Campaigns, judges and motions shared by the tests that span crates.
 
+pub mod beam;
 pub mod bodies;
 pub mod campaign;
 pub mod collision;

@@ -1,4 +1,4 @@
-//! `validate contact [--full]` and `validate collision [FILE] [--full]`: reference cases and random campaigns, whole or as the
+//! `validate beam [FILE]`, `validate contact [--full]` and `validate collision [FILE] [--full]`: reference cases and random campaigns, whole or as the
 //! subset that CI runs. Exits 1 on any failure.
 #![allow(
     clippy::print_stdout,
@@ -6,6 +6,7 @@
     reason = "a command that prints its report"
 )]
 
+mod beam;
 mod collision;
 mod contact;
 
@@ -31,6 +32,11 @@ enum Subject {
         #[arg(long)]
         full: bool,
     },
+    /// Reference cases of beams
+    Beam {
+        /// A file of such cases; the one of this repository when none is named
+        file: Option<PathBuf>,
+    },
     /// Reference pairs of convex shapes, or random pairs against the oracle
     Collision {
         /// A file of the format "convex-pairs-1"; the one of this repository when none is named
@@ -49,6 +55,7 @@ fn main() -> ExitCode {
     match Arguments::parse().subject {
         Subject::Contact { full: true } => contact::validate(&full_runs()),
         Subject::Contact { full: false } => contact::validate(&short_runs()),
+        Subject::Beam { file } => beam::validate_file(&file.unwrap_or_else(beam::open_file)),
         Subject::Collision {
             full: true,
             pairs_per_cell,

@@ -1,0 +1,31 @@
+//! Flexible tools as beams: small deflections by the stiffness method, by the paper's solvers and in closed form.
+//!
+//! All in the root section's frame: origin at the clamp, x along the centre line there. SI units.
+
+mod beam;
+mod closed_form;
+mod element;
+mod error;
+mod flexibility;
+mod interpolation;
+mod linear;
+mod load;
+mod material;
+mod profile;
+mod quadrature;
+mod section;
+
+pub use beam::{Beam, BeamSpec, Division, Element, MOST_ELEMENTS, Rest, Shear};
+pub use closed_form::{ClosedForm, Station, StationCompliance};
+pub use element::{Matrix10, Matrix12, rotated, stiffness_10, stiffness_12};
+pub use error::BeamError;
+pub use flexibility::{ElementFlexibility, NaturalStiffness};
+pub use interpolation::{Bend, Deformation, Interpolation};
+pub use linear::{
+    BandedLu, BlockTridiagonal, Definiteness, DenseLu, StiffnessMethod, Unknowns, assemble,
+    consistent_loads,
+};
+pub use load::{Displacement, Load, Loading, SectionForces};
+pub use material::Material;
+pub use profile::Profile;
+pub use section::{Section, Shape};
