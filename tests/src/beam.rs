@@ -1,6 +1,7 @@
 //! Reference cases of beams, and what is asked of this project's answers to them.
 
 pub mod linear;
+pub mod nonlinear;
 pub mod reference;
 pub mod report;
 
@@ -19,6 +20,12 @@ pub fn judge_file(path: &Path) -> Result<Report> {
     let mut report = Report::default();
     for case in &reference.linear_random {
         linear::judge(case, &mut report)?;
+    }
+    for case in &reference.nonlinear_tables {
+        nonlinear::judge_table(case, &mut report)?;
+    }
+    for case in &reference.nonlinear_random {
+        nonlinear::judge_space(case, &mut report)?;
     }
     ensure!(!report.rows.is_empty(), "{} holds no cases", path.display());
     Ok(report)

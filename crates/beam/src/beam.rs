@@ -9,6 +9,7 @@ use pliant_spatial::{Pose, quaternion_from_rotation_vector};
 use crate::error::{BeamError, demand, finite, positive};
 use crate::flexibility::ElementFlexibility;
 use crate::material::Material;
+use crate::natural::NaturalStiffness;
 use crate::profile::Profile;
 use crate::section::Shape;
 
@@ -73,8 +74,10 @@ pub struct Element {
     pub chord: f64,
     /// At rest: x along the chord, y and z halfway between those of its ends.
     pub rest: DMat3,
-    /// How it gives way.
+    /// How it gives way, taken as straight.
     pub flexibility: ElementFlexibility,
+    /// What it answers to its own deformations.
+    pub stiffness: NaturalStiffness,
 }
 
 /// A beam without faults, divided into elements.
@@ -143,6 +146,11 @@ impl Beam {
         let index = after.min(self.elements.len() - 1);
         let element = &self.elements[index];
         (index, ((s - element.start) / element.arc).clamp(0.0, 1.0))
+    }
+
+    /// Pose at rest of the section at arc position `s` [m] of element `index`, in the root's frame.
+    pub(crate) fn rest_from(&self, index: usize, s: f64) -> Pose {
+        self.nodes[index] * self.spec.rest.between(self.elements[index].start, s)
     }
 
     /// Whether it is straight at rest.
@@ -225,7 +233,7 @@ impl Rest {
     }
 
     /// Pose of the section at arc `to` relative to the one at `from`, within which the curvature may step.
-    fn between(&self, from: f64, to: f64) -> Pose {
+    pub(crate) fn between(&self, from: f64, to: f64) -> Pose {
         match self {
             Self::Straight => Pose::new(DQuat::IDENTITY, DVec3::X * (to - from)),
             Self::Curved(curvature) => helix(*curvature, to - from),
@@ -296,12 +304,25 @@ impl Element {
         let x = along / chord;
         let y = poses[0].rotation * DVec3::Y + poses[1].rotation * DVec3::Y;
         let z = x.cross(y).normalize();
-        Ok(Self {
+        let rest = DMat3::from_cols(x, z.cross(x), z);
+        let flexibility = ElementFlexibility::new(ends, 1.0, spec);
+        let mut element = Self {
             start: ends[0],
             arc,
-            chord,
-            rest: DMat3::from_cols(x, z.cross(x), z),
-            flexibility: ElementFlexibility::new(ends, 1.0, spec),
-        })
+            // Of a straight beam they are one length.
+            chord: if spec.rest == Rest::Straight {
+                arc
+            } else {
+                chord
+            },
+            rest,
+            stiffness: NaturalStiffness::straight(&flexibility, arc),
+            flexibility,
+        };
+        if element.chord != element.arc {
+            let first = DQuat::from_mat3(&rest).inverse() * poses[0].rotation;
+            element.stiffness = NaturalStiffness::bent(&element, spec, first);
+        }
+        Ok(element)
     }
 }

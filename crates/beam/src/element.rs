@@ -7,7 +7,7 @@
 use glam::DMat3;
 
 use crate::beam::Element;
-use crate::flexibility::NaturalStiffness;
+use crate::natural::NaturalStiffness;
 
 /// Stiffness of an element with six unknowns a node, rows by columns [N/m, N, N·m].
 pub type Matrix12 = [[f64; 12]; 12];
@@ -20,16 +20,13 @@ const WITHOUT_TWIST: [usize; 10] = [0, 1, 2, 4, 5, 6, 7, 8, 10, 11];
 
 /// Stiffness in the element's own axes.
 pub fn stiffness_12(element: &Element) -> Matrix12 {
-    let length = element.chord;
-    let natural = element.flexibility.stiffness(length);
-    let rows = deformations(length);
-    let mut matrix = [[0.0; 12]; 12];
     let NaturalStiffness {
         axial,
-        torsion,
-        about_y,
-        about_z,
-    } = natural;
+        coupling,
+        rotations,
+    } = &element.stiffness;
+    let rows = deformations(element.chord);
+    let mut matrix = [[0.0; 12]; 12];
     let mut add = |i: usize, j: usize, value: f64| {
         for (row, own) in rows[i].iter().zip(&mut matrix) {
             for (column, entry) in rows[j].iter().zip(own) {
@@ -37,31 +34,42 @@ pub fn stiffness_12(element: &Element) -> Matrix12 {
             }
         }
     };
-    add(0, 0, axial);
-    add(1, 1, torsion);
-    for (first, [k11, k12, k22]) in [(2, about_y), (4, about_z)] {
-        add(first, first, k11);
-        add(first, first + 1, k12);
-        add(first + 1, first, k12);
-        add(first + 1, first + 1, k22);
+    add(0, 0, *axial);
+    for end in 0..2 {
+        for axis in 0..3 {
+            let row = 1 + 3 * end + axis;
+            add(0, row, coupling[end][axis]);
+            add(row, 0, coupling[end][axis]);
+            for other in 0..3 {
+                add(
+                    row,
+                    1 + 3 * end + other,
+                    rotations[2 * end].col(other)[axis],
+                );
+                if end == 0 {
+                    let value = rotations[1].col(other)[axis];
+                    add(row, 4 + other, value);
+                    add(4 + other, row, value);
+                }
+            }
+        }
     }
     matrix
 }
 
-/// What the unknowns do to the element: rows stretch, twist, end rotations about y from the chord, and about z.
-fn deformations(length: f64) -> [[f64; 12]; 6] {
-    let mut rows = [[0.0; 12]; 6];
+/// What the unknowns do to the element: rows stretch, then rotations of node 1 and of node 2 from the chord; about x the chord turns
+/// with neither.
+fn deformations(length: f64) -> [[f64; 12]; 7] {
+    let mut rows = [[0.0; 12]; 7];
     (rows[0][0], rows[0][6]) = (-1.0, 1.0);
-    (rows[1][3], rows[1][9]) = (-1.0, 1.0);
     let tilt = 1.0 / length;
-    for (row, rotation) in [(2, 4), (3, 10)] {
-        rows[row][rotation] = 1.0;
-        // The chord turns about −y as w grows.
-        (rows[row][2], rows[row][8]) = (-tilt, tilt);
-    }
-    for (row, rotation) in [(4, 5), (5, 11)] {
-        rows[row][rotation] = 1.0;
-        (rows[row][1], rows[row][7]) = (tilt, -tilt);
+    for (row, rotation) in [(1, 3), (4, 9)] {
+        for axis in 0..3 {
+            rows[row + axis][rotation + axis] = 1.0;
+        }
+        // The chord turns about −y as w grows, about z as v does.
+        (rows[row + 1][2], rows[row + 1][8]) = (-tilt, tilt);
+        (rows[row + 2][1], rows[row + 2][7]) = (tilt, -tilt);
     }
     rows
 }

@@ -28,9 +28,9 @@ pub struct ElementFlexibility {
     pub uniform: bool,
 }
 
-/// Stiffness of an element against its own deformations: stretch, twist, and the rotations of its ends from the chord.
+/// Stiffness of a straight element against its own deformations: stretch, twist, and the rotations of its ends from the chord.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NaturalStiffness {
+pub struct StraightStiffness {
     /// Force per stretch [N/m].
     pub axial: f64,
     /// Torque per twist [N·m/rad].
@@ -102,8 +102,8 @@ impl ElementFlexibility {
     }
 
     /// The inverse, for an element with its nodes `length` [m] apart (beam.2).
-    pub fn stiffness(&self, length: f64) -> NaturalStiffness {
-        NaturalStiffness {
+    pub fn stiffness(&self, length: f64) -> StraightStiffness {
+        StraightStiffness {
             axial: 1.0 / self.axial,
             torsion: 1.0 / self.torsion,
             about_y: ends(self.bending_y, self.shear_z / (length * length)),

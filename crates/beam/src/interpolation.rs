@@ -78,6 +78,16 @@ impl Interpolation {
         (displacement, rotation)
     }
 
+    /// Share of an end's rotation, about each axis, that a section here makes.
+    pub(crate) fn rotation_share(&self, end: usize) -> DVec3 {
+        let twist = [1.0 - self.twist, self.twist][end];
+        DVec3::new(
+            twist,
+            self.about_y.rotation[end],
+            self.about_z.rotation[end],
+        )
+    }
+
     /// Nodal forces and moments that do the same work as a force and a moment here, all in the element's axes: (force 1, moment 1,
     /// force 2, moment 2).
     pub fn to_nodes(&self, element: &Element, force: DVec3, moment: DVec3) -> [DVec3; 4] {

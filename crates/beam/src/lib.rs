@@ -4,6 +4,7 @@
 
 mod beam;
 mod closed_form;
+mod corotational;
 mod element;
 mod error;
 mod flexibility;
@@ -11,15 +12,18 @@ mod interpolation;
 mod linear;
 mod load;
 mod material;
+mod material_point;
+mod natural;
 mod profile;
 mod quadrature;
 mod section;
 
 pub use beam::{Beam, BeamSpec, Division, Element, MOST_ELEMENTS, Rest, Shear};
 pub use closed_form::{ClosedForm, Station, StationCompliance};
+pub use corotational::{AnchoredLoads, Corotational, Outcome, Settings, Stability};
 pub use element::{Matrix10, Matrix12, rotated, stiffness_10, stiffness_12};
 pub use error::BeamError;
-pub use flexibility::{ElementFlexibility, NaturalStiffness};
+pub use flexibility::{ElementFlexibility, StraightStiffness};
 pub use interpolation::{Bend, Deformation, Interpolation};
 pub use linear::{
     BandedLu, BlockTridiagonal, Definiteness, DenseLu, StiffnessMethod, Unknowns, assemble,
@@ -27,5 +31,7 @@ pub use linear::{
 };
 pub use load::{Displacement, Load, Loading, SectionForces};
 pub use material::Material;
+pub use material_point::MaterialPoint;
+pub use natural::NaturalStiffness;
 pub use profile::Profile;
 pub use section::{Section, Shape};

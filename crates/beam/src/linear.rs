@@ -19,6 +19,7 @@ pub use banded::BandedLu;
 pub use block::{BlockTridiagonal, Definiteness};
 pub use dense::DenseLu;
 
+pub(crate) use block::{Block, inverse};
 pub use consistent::consistent_loads;
 
 /// Unknowns of each node.

@@ -13,6 +13,137 @@ pub struct Reference {
     /// Small deflections of stepped beams under loads anywhere.
     #[serde(default)]
     pub linear_random: Vec<LinearCase>,
+    /// Large deflections with closed or otherwise exact answers.
+    #[serde(default)]
+    pub nonlinear_tables: Vec<TableCase>,
+    /// Large deflections in space of straight and curved, uniform and conical beams.
+    #[serde(default)]
+    pub nonlinear_random: Vec<SpaceCase>,
+}
+
+/// A large deflection known exactly.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[expect(non_snake_case, reason = "names of the file's format")]
+pub enum TableCase {
+    /// A dead force across the tip of a straight inextensible beam; length and EI are 1.
+    ElasticaTipDead {
+        /// Force by EI/L².
+        alpha: f64,
+        /// Deflection of the tip across.
+        w_over_L: f64,
+        /// Shortening along.
+        u_over_L: f64,
+    },
+    /// A force that stays square to the tip; length and EI are 1.
+    FollowerTip {
+        /// Force by EI/L².
+        alpha: f64,
+        /// Halfway.
+        mid: DVec3,
+        /// Of the tip.
+        tip: DVec3,
+    },
+    /// A moment at the tip of a straight beam; length and EI are 1.
+    RollupEndMoment {
+        /// Angle of the tip by a full turn.
+        fraction_of_2pi: f64,
+        /// Of the tip.
+        tip: DVec3,
+    },
+    /// An arc in the plane x–y under a force along z at its tip.
+    ArcTipForce {
+        /// Of the arc [m].
+        radius: f64,
+        /// Opening of the arc.
+        degrees: f64,
+        /// Young's modulus [Pa].
+        E: f64,
+        /// Shear modulus [Pa].
+        G: f64,
+        /// Of the rectangular section [m].
+        width_z: f64,
+        /// Of the rectangular section [m].
+        height_y: f64,
+        /// Torsion constant [m⁴].
+        J: f64,
+        /// Shear area by area.
+        shear_factor: f64,
+        /// [N].
+        P: f64,
+        /// Of the tip [m].
+        tip: DVec3,
+    },
+    /// A helix under a dead force at its tip.
+    HelixDeadTipForce {
+        /// The beam.
+        #[serde(flatten)]
+        helix: Helix,
+        /// In the root's axes [N].
+        force: DVec3,
+    },
+    /// A helix under a force and a moment that turn with its tip.
+    HelixFollowerTipWrench {
+        /// The beam.
+        #[serde(flatten)]
+        helix: Helix,
+        /// In the tip's axes [N].
+        body_force: DVec3,
+        /// In the tip's axes [N·m].
+        body_moment: DVec3,
+    },
+}
+
+/// A beam of constant curvature and twist, and where it goes.
+#[derive(Clone, Debug, Deserialize)]
+#[expect(non_snake_case, reason = "names of the file's format")]
+pub struct Helix {
+    /// Bending [rad/m].
+    pub kappa: f64,
+    /// Twist [rad/m].
+    pub tau: f64,
+    /// Torsional stiffness [N·m²].
+    pub GJ: f64,
+    /// Bending stiffness [N·m²].
+    pub EI: f64,
+    /// Length [m].
+    pub L: f64,
+    /// Halfway [m].
+    pub mid: DVec3,
+    /// Of the tip [m].
+    pub tip: DVec3,
+}
+
+/// A round beam in space.
+#[derive(Clone, Debug, Deserialize)]
+#[expect(non_snake_case, reason = "names of the file's format")]
+pub struct SpaceCase {
+    /// Name of the case.
+    pub id: String,
+    /// Length [m].
+    pub L: f64,
+    /// Young's modulus [Pa].
+    pub E: f64,
+    /// Poisson's ratio.
+    pub nu: f64,
+    /// Diameter at the root [m].
+    pub d_root: f64,
+    /// Diameter at the tip [m].
+    pub d_tip: f64,
+    /// Timoshenko's theory.
+    pub shear_flexible: bool,
+    /// The centre line can stretch.
+    pub extensible: bool,
+    /// Axes of the root in the world, x first.
+    pub root_frame_columns: [f64; 9],
+    /// Twist, bending about y and z at rest [rad/m].
+    pub initial_body_curvature: DVec3,
+    /// In world axes.
+    pub loads: Vec<ReferenceLoad>,
+    /// Arc positions [m].
+    pub stations_s: Vec<f64>,
+    /// Where they are under load, from the root, in world axes [m].
+    pub positions: Vec<DVec3>,
 }
 
 /// A straight cantilever of stepped sections anywhere in space.

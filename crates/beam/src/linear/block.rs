@@ -117,7 +117,7 @@ impl BlockTridiagonal {
 }
 
 /// `sum` + `factor` · `matrix` · `vector`.
-pub(crate) fn multiply_add(matrix: &Block, vector: &[f64; 6], factor: f64, sum: &mut [f64; 6]) {
+fn multiply_add(matrix: &Block, vector: &[f64; 6], factor: f64, sum: &mut [f64; 6]) {
     for (sum, row) in sum.iter_mut().zip(matrix) {
         let mut product = 0.0;
         for (value, other) in row.iter().zip(vector) {
@@ -151,7 +151,7 @@ fn subtract_product(from: &mut Block, left: &Block, right: &Block) {
 
 /// Inverts in place by Gauss–Jordan with the largest pivot on the diagonal; returns how many pivots are negative, which of a
 /// symmetric matrix is its number of negative eigenvalues (Sylvester). `None`: there is none to divide by.
-pub(crate) fn invert(block: &mut Block) -> Option<usize> {
+fn invert(block: &mut Block) -> Option<usize> {
     let mut negative = 0;
     let mut done = [false; 6];
     for _ in 0..6 {
@@ -187,4 +187,9 @@ pub(crate) fn invert(block: &mut Block) -> Option<usize> {
         block[pivot] = row;
     }
     Some(negative)
+}
+
+/// The inverse of a matrix; `None` where there is none.
+pub(crate) fn inverse(mut matrix: Block) -> Option<Block> {
+    invert(&mut matrix).map(|_| matrix)
 }
