@@ -8,6 +8,7 @@ mod corotational;
 mod element;
 mod error;
 mod flexibility;
+mod force_method;
 mod interpolation;
 mod linear;
 mod load;
@@ -24,6 +25,7 @@ pub use corotational::{AnchoredLoads, Corotational, Outcome, Settings, Stability
 pub use element::{Matrix10, Matrix12, rotated, stiffness_10, stiffness_12};
 pub use error::BeamError;
 pub use flexibility::{ElementFlexibility, StraightStiffness};
+pub use force_method::ForceMethod;
 pub use interpolation::{Bend, Deformation, Interpolation};
 pub use linear::{
     BandedLu, BlockTridiagonal, Definiteness, DenseLu, StiffnessMethod, Unknowns, assemble,

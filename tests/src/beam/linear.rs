@@ -3,8 +3,8 @@
 use anyhow::Result;
 use glam::{DMat3, DVec3};
 use pliant_beam::{
-    BandedLu, Beam, ClosedForm, DenseLu, Displacement, Loading, StiffnessMethod, Unknowns,
-    consistent_loads,
+    BandedLu, Beam, ClosedForm, DenseLu, Displacement, ForceMethod, Loading, StiffnessMethod,
+    Unknowns, consistent_loads,
 };
 
 use super::reference::LinearCase;
@@ -53,6 +53,8 @@ pub fn judge(case: &LinearCase, report: &mut Report) -> Result<()> {
         "stiffness, six unknowns",
         error(&nodes, &case.nodes_disp, &frame),
     );
+    let nodes = by_forces(&beam, &loading);
+    enter("force method", error(&nodes, &case.nodes_disp, &frame));
     if case.no_torque {
         let nodes = without_twist(&beam, &loading);
         enter(
@@ -70,6 +72,27 @@ pub fn judge(case: &LinearCase, report: &mut Report) -> Result<()> {
         error(&[reaction], &[case.root_reaction], &frame),
     );
     Ok(())
+}
+
+/// Two sweeps, no matrix.
+fn by_forces(beam: &Beam, loading: &Loading<'_>) -> Vec<Displacement> {
+    let mut method = ForceMethod::new(beam).expect("straight");
+    let mut nodes = vec![[0.0; 6]; beam.elements().len()];
+    consistent_loads(beam, loading, |node, load| {
+        if let Some(free) = node.checked_sub(1) {
+            for (sum, value) in nodes[free].iter_mut().zip(load) {
+                *sum += value;
+            }
+        }
+    });
+    method.solve(&mut nodes);
+    let free = nodes.iter().map(|node| Displacement {
+        translation: DVec3::from_slice(&node[..3]),
+        rotation: DVec3::from_slice(&node[3..]),
+    });
+    std::iter::once(Displacement::default())
+        .chain(free)
+        .collect()
 }
 
 /// The paper's way: five unknowns a node, dense and banded LU, which must agree.

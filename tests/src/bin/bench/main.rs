@@ -1,6 +1,7 @@
-//! `bench tick [--json FILE]` and `bench collision [--json FILE]`: times, as a table and as JSON.
+//! `bench tick`, `bench collision` and `bench beam`, each with `[--json FILE]`: times, as a table and as JSON.
 #![allow(clippy::print_stdout, reason = "a command that prints its report")]
 
+mod beam;
 mod collision;
 mod tick;
 
@@ -23,6 +24,8 @@ struct Arguments {
 enum Subject {
     /// One tick of the simulation
     Tick,
+    /// Solvers of the beam crate beside `nalgebra` and `faer`
+    Beam,
     /// Queries of the collision crate beside those of `parry3d-f64`
     Collision,
 }
@@ -31,6 +34,7 @@ fn main() -> Result<()> {
     let Arguments { subject, json } = Arguments::parse();
     match subject {
         Subject::Tick => tick::run(&json.unwrap_or_else(|| "target/bench/tick.json".into())),
+        Subject::Beam => beam::run(&json.unwrap_or_else(|| "target/bench/beam.json".into())),
         Subject::Collision => {
             collision::run(&json.unwrap_or_else(|| "target/bench/collision.json".into()))
         }
