@@ -37,9 +37,6 @@ pub(crate) struct Roll {
     pub(crate) per_spin: [DVec3; 2],
 }
 
-/// A row of coefficients of the nine increments.
-pub(crate) type Row = [f64; 9];
-
 /// Forces and tangent of an element, in the root's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Response {
@@ -90,17 +87,19 @@ impl Frame {
     pub(crate) fn response(&self, stiffness: &LocalStiffness) -> Response {
         let local = self.local(stiffness);
         let roll = self.roll();
-        let rows = Rows {
-            frame: self,
-            roll: &roll,
-        };
         let forces = self.forces(&local, &roll);
-        let spin = rows.spin();
-        let tangent = rows.tangent(&local, &forces, &spin);
-        let turned = |block: DMat3| self.axes * block * self.axes.transpose();
+        let [dd, d1, d2, m11, m12, m22] = self.tangent(&local, &roll, &forces);
+        let axes = self.axes;
+        let back = axes.transpose();
+        let (d1, d2, m12) = (axes * d1 * back, axes * d2 * back, axes * m12 * back);
         Response {
-            forces: forces.map(|force| self.axes * force),
-            tangent: tangent.map(|row| row.map(turned)),
+            forces: [axes * forces[0], axes * forces[1], axes * forces[2]],
+            // Off the diagonal the tangent of an energy is symmetric.
+            tangent: [
+                [axes * dd * back, d1, d2],
+                [d1.transpose(), axes * m11 * back, m12],
+                [d2.transpose(), m12.transpose(), axes * m22 * back],
+            ],
         }
     }
 
@@ -265,132 +264,150 @@ struct Local {
     per_spin: [[DMat3; 2]; 2],
 }
 
-struct Rows<'f> {
-    frame: &'f Frame,
-    roll: &'f Roll,
-}
+/// Coefficients of a scalar: of the spins of both ends relative to the element's axes, or of the increments.
+#[derive(Clone, Copy)]
+struct Ends(DVec3, DVec3);
 
-impl Rows<'_> {
-    /// The spin of the element's axes.
-    fn spin(&self) -> [Row; 3] {
-        let inverse = 1.0 / self.frame.length;
-        let [p1, p2] = self.roll.per_spin;
-        let mut rows = [[0.0; 9]; 3];
-        rows[0][2] = -self.roll.lean * inverse;
-        rows[0][3..6].copy_from_slice(&p1.to_array());
-        rows[0][6..9].copy_from_slice(&p2.to_array());
-        rows[1][2] = -inverse;
-        rows[2][1] = inverse;
-        rows
-    }
-
-    /// Coefficients of the increments from those of the spins of both ends relative to the element's axes.
-    fn relative(&self, [c1, c2]: [DVec3; 2]) -> Row {
-        let sum = c1 + c2;
-        let inverse = 1.0 / self.frame.length;
-        let [p1, p2] = self.roll.per_spin;
-        let (first, second) = (c1 - p1 * sum.x, c2 - p2 * sum.x);
+impl Frame {
+    /// Blocks of the tangent: (d, d), (d, 1), (d, 2), (1, 1), (1, 2), (2, 2) for the force on the second node and the moments on both
+    /// by the difference d of the end positions and the spins (beam.23).
+    fn tangent(&self, local: &Local, roll: &Roll, forces: &[DVec3; 3]) -> [DMat3; 6] {
+        let inverse = 1.0 / self.length;
+        let [p1, p2] = roll.per_spin;
+        let twist = local.moments[0].x + local.moments[1].x;
+        let [[a11, a12], [a21, a22]] = local.per_spin;
+        // Of the moments by d and by both spins.
+        let (whole_1, whole_2) = (a11 + a12, a21 + a22);
+        let by_d = |whole: &DMat3, coupling: DVec3| {
+            DMat3::from_cols(
+                coupling,
+                whole.z_axis * -inverse,
+                (whole.x_axis * roll.lean + whole.y_axis) * inverse,
+            )
+        };
+        let sum_d = by_d(&(whole_1 + whole_2), local.coupling[0] + local.coupling[1]);
+        let b11 = a11 - outer(whole_1.x_axis, p1);
+        let b12 = a12 - outer(whole_1.x_axis, p2);
+        let b21 = a21 - outer(whole_2.x_axis, p1);
+        let b22 = a22 - outer(whole_2.x_axis, p2);
+        let (sum_1, sum_2) = (b11 + b21, b12 + b22);
+        let lean = self.lean_variation();
+        let net = local.coupling[0] + local.coupling[1];
+        let force = forces[0];
+        let around = DVec3::X.cross(force);
+        let per_spin = |sum: &DMat3, coupling: DVec3, lean: DVec3, share: DVec3| {
+            let z = sum.row(1) + sum.row(0) * roll.lean + lean * twist;
+            rows(coupling - share * net.x, sum.row(2) * -inverse, z * inverse)
+                + outer(around, share)
+        };
+        let relative = self.relative(roll, lean);
+        let of_net = self.by_difference(roll, net);
+        let of_lean = self.by_difference(roll, lean.0 + lean.1);
+        let y = sum_d.row(2) * -inverse - DVec3::X * (force.y * inverse);
+        let z = (sum_d.row(1) + sum_d.row(0) * roll.lean + of_lean * twist) * inverse
+            - DVec3::X * (force.z * inverse);
+        let turned = DMat3::from_cols(
+            DVec3::ZERO,
+            DVec3::Z.cross(force) * inverse,
+            DVec3::new(-roll.lean, -1.0, 0.0).cross(force) * inverse,
+        );
+        let dd = rows(of_net + DVec3::X * local.axial_stiffness, y, z) + turned;
+        let d1 = per_spin(&sum_1, local.coupling[0], relative.0, p1);
+        let d2 = per_spin(&sum_2, local.coupling[1], relative.1, p2);
+        let [own_1, own_2] = [0, 1].map(|end| self.axis_variations(end));
+        let shares = |end: usize, other: usize| {
+            let (x, y) = if end == 0 { own_1 } else { own_2 };
+            let pick = |of: Ends| {
+                let of = self.relative(roll, of);
+                if other == 0 { of.0 } else { of.1 }
+            };
+            rows(
+                pick(y) * (-0.5 * twist),
+                pick(x) * (0.5 * twist),
+                DVec3::ZERO,
+            )
+        };
+        let finish = |own: DMat3, sum: &DMat3, (end, other): (usize, usize)| {
+            let (share, by) = (roll.per_spin[end], roll.per_spin[other]);
+            own - outer(share, sum.row(0))
+                + shares(end, other)
+                + outer(DVec3::X.cross(forces[1 + end]), by)
+        };
         [
-            0.0,
-            -sum.z * inverse,
-            (self.roll.lean * sum.x + sum.y) * inverse,
-            first.x,
-            first.y,
-            first.z,
-            second.x,
-            second.y,
-            second.z,
+            dd,
+            d1,
+            d2,
+            finish(b11, &sum_1, (0, 0)),
+            finish(b12, &sum_2, (0, 1)),
+            finish(b22, &sum_2, (1, 1)),
         ]
     }
 
-    /// Variations of q_x/m and q_y/m of the section axes q of both ends, and of the mean axis, m its y: what the roll depends on.
-    fn axis_variations(&self) -> ([[Row; 2]; 2], Row) {
-        let [q1, q2] = self.frame.y_axes;
-        let mean = 0.5 * (q1 + q2);
-        let inverse = 1.0 / mean.y;
-        // δq = φ × q.
-        let per_x = |q: DVec3| DVec3::new(0.0, q.z, -q.y);
-        let per_y = |q: DVec3| DVec3::new(-q.z, 0.0, q.x);
-        let mean_y = [per_y(q1) * 0.5, per_y(q2) * 0.5];
-        let quotient = |own: [DVec3; 2], value: f64| {
-            let ratio = value * inverse;
-            self.relative([0, 1].map(|end| (own[end] - mean_y[end] * ratio) * inverse))
+    /// By both spins, from coefficients of the spins relative to the element's axes.
+    #[inline]
+    fn relative(&self, roll: &Roll, Ends(c1, c2): Ends) -> Ends {
+        let along = c1.x + c2.x;
+        Ends(c1 - roll.per_spin[0] * along, c2 - roll.per_spin[1] * along)
+    }
+
+    /// By the difference of the end positions, from the sum of those coefficients.
+    #[inline]
+    fn by_difference(&self, roll: &Roll, sum: DVec3) -> DVec3 {
+        DVec3::new(0.0, -sum.z, roll.lean * sum.x + sum.y) / self.length
+    }
+
+    /// Variations of q_x/m and q_y/m, q the section axis of an end and m the y of the mean one: what the roll depends on.
+    #[inline]
+    fn axis_variations(&self, end: usize) -> (Ends, Ends) {
+        let q = self.y_axes[end];
+        let place = |own: DVec3| {
+            if end == 0 {
+                Ends(own, DVec3::ZERO)
+            } else {
+                Ends(DVec3::ZERO, own)
+            }
         };
-        let zero = DVec3::ZERO;
-        let ends = [
-            [
-                quotient([per_x(q1), zero], q1.x),
-                quotient([per_y(q1), zero], q1.y),
-            ],
-            [
-                quotient([zero, per_x(q2)], q2.x),
-                quotient([zero, per_y(q2)], q2.y),
-            ],
-        ];
-        let lean = quotient([per_x(q1) * 0.5, per_x(q2) * 0.5], mean.x);
-        (ends, lean)
+        (
+            self.quotient(place(per_x(q)), q.x),
+            self.quotient(place(per_y(q)), q.y),
+        )
     }
 
-    fn tangent(&self, local: &Local, forces: &[DVec3; 3], spin: &[Row; 3]) -> [[DMat3; 3]; 3] {
-        let length = self.frame.length;
-        let inverse = 1.0 / length;
-        let moment = local.moments[0] + local.moments[1];
-        let moments = [0, 1].map(|end| {
-            let [to_first, to_second] = &local.per_spin[end];
-            [0, 1, 2].map(|axis| {
-                let mut row = self.relative([to_first.row(axis), to_second.row(axis)]);
-                row[0] = local.coupling[end][axis];
-                row
-            })
-        });
-        let total = [0, 1, 2].map(|axis| sum(&moments[0][axis], &moments[1][axis], 1.0));
-        let (axes, lean) = self.axis_variations();
-        let mut rows = [[0.0; 9]; 9];
-        rows[0] = self.relative(local.coupling);
-        rows[0][0] = local.axial_stiffness;
-        rows[1] = scaled(&total[2], -inverse);
-        rows[1][0] += moment.z * inverse * inverse;
-        rows[2] = sum(&total[1], &total[0], self.roll.lean);
-        rows[2] = scaled(&sum(&rows[2], &lean, moment.x), inverse);
-        rows[2][0] -= forces[0].z * inverse;
-        for end in 0..2 {
-            let share = self.roll.per_spin[end];
-            for axis in 0..3 {
-                rows[3 + 3 * end + axis] = sum(&moments[end][axis], &total[0], -share[axis]);
-            }
-            // share = ½ (q_y, −q_x, 0)/m.
-            let (x, y) = (3 + 3 * end, 4 + 3 * end);
-            rows[x] = sum(&rows[x], &axes[end][1], -0.5 * moment.x);
-            rows[y] = sum(&rows[y], &axes[end][0], 0.5 * moment.x);
-        }
-        for (block, force) in forces.iter().enumerate() {
-            let [x, y, z] = spin;
-            let turned = [
-                sum(&scaled(y, force.z), z, -force.y),
-                sum(&scaled(z, force.x), x, -force.z),
-                sum(&scaled(x, force.y), y, -force.x),
-            ];
-            for (axis, turned) in turned.iter().enumerate() {
-                let row = &mut rows[3 * block + axis];
-                *row = sum(row, turned, 1.0);
-            }
-        }
-        [0, 1, 2].map(|row| {
-            [0, 1, 2].map(|column| {
-                DMat3::from_cols_array_2d(
-                    &[0, 1, 2].map(|j| [0, 1, 2].map(|i| rows[3 * row + i][3 * column + j])),
-                )
-            })
-        })
+    /// Variation of the mean axis's q_x/m.
+    #[inline]
+    fn lean_variation(&self) -> Ends {
+        let [q1, q2] = self.y_axes;
+        self.quotient(Ends(per_x(q1) * 0.5, per_x(q2) * 0.5), 0.5 * (q1.x + q2.x))
+    }
+
+    /// Variation of `value`/m from that of the value.
+    #[inline]
+    fn quotient(&self, of_value: Ends, value: f64) -> Ends {
+        let [q1, q2] = self.y_axes;
+        let inverse = 2.0 / (q1.y + q2.y);
+        let ratio = 0.5 * value * inverse;
+        Ends(
+            (of_value.0 - per_y(q1) * ratio) * inverse,
+            (of_value.1 - per_y(q2) * ratio) * inverse,
+        )
     }
 }
 
-fn sum(left: &Row, right: &Row, factor: f64) -> Row {
-    std::array::from_fn(|index| left[index] + factor * right[index])
+/// Of q_x by the spin φ, δq = φ × q.
+#[inline]
+fn per_x(q: DVec3) -> DVec3 {
+    DVec3::new(0.0, q.z, -q.y)
 }
 
-fn scaled(row: &Row, factor: f64) -> Row {
-    row.map(|value| value * factor)
+/// Of q_y.
+#[inline]
+fn per_y(q: DVec3) -> DVec3 {
+    DVec3::new(-q.z, 0.0, q.x)
+}
+
+#[inline]
+fn rows(x: DVec3, y: DVec3, z: DVec3) -> DMat3 {
+    DMat3::from_cols(x, y, z).transpose()
 }
 
 /// Rotation vector of a rotation matrix by less than three quarters of a half turn; `None` beyond.

@@ -149,44 +149,64 @@ fn subtract_product(from: &mut Block, left: &Block, right: &Block) {
     }
 }
 
-/// Inverts in place by Gauss–Jordan with the largest pivot on the diagonal; returns how many pivots are negative, which of a
-/// symmetric matrix is its number of negative eigenvalues (Sylvester). `None`: there is none to divide by.
+/// A pivot smaller than this times the diagonal it came from is not taken unseen.
+const SMALL_PIVOT: f64 = 1e-6;
+
+/// Inverts in place by Gauss–Jordan with pivots on the diagonal; returns how many are negative, which of a symmetric matrix is its
+/// number of negative eigenvalues (Sylvester). `None`: there is none to divide by.
 fn invert(block: &mut Block) -> Option<usize> {
+    let original = *block;
     let mut negative = 0;
-    let mut done = [false; 6];
-    for _ in 0..6 {
-        let mut pivot = 6;
-        let mut largest = 0.0;
-        for candidate in 0..6 {
-            let size = block[candidate][candidate].abs();
-            if !done[candidate] && size > largest {
-                (pivot, largest) = (candidate, size);
-            }
+    for pivot in 0..6 {
+        let value = block[pivot][pivot];
+        if value.abs() < SMALL_PIVOT * original[pivot][pivot].abs() {
+            *block = original;
+            return invert_pivoted(block);
         }
-        if pivot == 6 || !largest.is_finite() {
+        negative += usize::from(value < 0.0);
+        eliminate(block, pivot);
+    }
+    block[5][5].is_finite().then_some(negative)
+}
+
+/// The same with the largest pivot first.
+#[cold]
+fn invert_pivoted(block: &mut Block) -> Option<usize> {
+    let mut negative = 0;
+    let mut open = [true; 6];
+    for _ in 0..6 {
+        let size = |index: &usize| block[*index][*index].abs();
+        let pivot = (0..6)
+            .filter(|index| open[*index])
+            .max_by(|left, right| size(left).total_cmp(&size(right)))?;
+        if size(&pivot) == 0.0 || !size(&pivot).is_finite() {
             return None;
         }
-        done[pivot] = true;
+        open[pivot] = false;
         negative += usize::from(block[pivot][pivot] < 0.0);
-        let inverse = 1.0 / block[pivot][pivot];
-        let mut row = block[pivot];
-        row[pivot] = 1.0;
-        for value in &mut row {
-            *value *= inverse;
-        }
-        for (index, own) in block.iter_mut().enumerate() {
-            if index == pivot {
-                continue;
-            }
-            let factor = own[pivot];
-            own[pivot] = 0.0;
-            for (value, other) in own.iter_mut().zip(&row) {
-                *value -= factor * other;
-            }
-        }
-        block[pivot] = row;
+        eliminate(block, pivot);
     }
     Some(negative)
+}
+
+/// Exchanges an unknown for its right-hand side.
+#[inline]
+fn eliminate(block: &mut Block, pivot: usize) {
+    let mut row = block[pivot];
+    let inverse = 1.0 / row[pivot];
+    row[pivot] = 1.0;
+    for value in &mut row {
+        *value *= inverse;
+    }
+    // The pivot's own row comes out wrong here and is set below: a loop without a branch is faster.
+    for own in block.iter_mut() {
+        let factor = own[pivot];
+        own[pivot] = 0.0;
+        for (value, other) in own.iter_mut().zip(&row) {
+            *value -= factor * other;
+        }
+    }
+    block[pivot] = row;
 }
 
 /// The inverse of a matrix; `None` where there is none.
