@@ -38,10 +38,14 @@ pub enum BeamError {
         to: &'static str,
     },
     /// A name that the catalogue does not have.
-    #[error("there is no tool named '{name}'; the catalogue has {names}")]
+    #[error(
+        "there is no tool named '{name}'; most like it are {nearest}; the catalogue has {names}"
+    )]
     UnknownTool {
         /// What was asked for.
         name: String,
+        /// The names most like it, with commas.
+        nearest: String,
         /// All names there are, with commas.
         names: String,
     },

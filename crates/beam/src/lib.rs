@@ -3,6 +3,7 @@
 //! All in the root section's frame: origin at the clamp, x along the centre line there. SI units.
 
 mod beam;
+mod catalogue;
 mod closed_form;
 mod corotational;
 mod element;
@@ -20,6 +21,7 @@ mod quadrature;
 mod section;
 
 pub use beam::{Beam, BeamSpec, Division, Element, MOST_ELEMENTS, Rest, Shear};
+pub use catalogue::{Blank, Course, Figure, Origin, ToolEntry, ToolMaterial, catalogue, tool};
 pub use closed_form::{ClosedForm, Station, StationCompliance};
 pub use corotational::{AnchoredLoads, Corotational, Outcome, Settings, Stability};
 pub use element::{Matrix10, Matrix12, rotated, stiffness_10, stiffness_12};
