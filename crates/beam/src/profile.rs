@@ -54,11 +54,6 @@ impl Profile {
             .filter(move |station| *station > 0.0 && *station < length)
     }
 
-    /// Whether the section is the same all along.
-    pub(crate) fn is_uniform(&self) -> bool {
-        matches!(self, Self::Uniform(_))
-    }
-
     pub(crate) fn check(&self) -> Result<(), BeamError> {
         match self {
             Self::Uniform(shape) => shape.check("profile"),
