@@ -6,15 +6,20 @@
 use glam::{DMat3, DQuat, DVec3};
 use pliant_spatial::{Pose, quaternion_from_rotation_vector};
 
+use crate::element::stiffness_12;
 use crate::error::{BeamError, demand, finite, positive};
 use crate::flexibility::ElementFlexibility;
 use crate::material::Material;
 use crate::natural::NaturalStiffness;
-use crate::profile::Profile;
+use crate::profile::{MOST_ROWS, Profile};
 use crate::section::Shape;
 
 /// Most elements: beyond, the stiffness method loses its digits as (length/element)⁴ (docs/theory/beam.md).
 pub const MOST_ELEMENTS: usize = 400;
+
+/// How far the y axes of an element's ends must agree across its chord, 1 if they are one and 0 if half a turn lies between: near 0
+/// nothing is halfway.
+const LEAST_AGREEMENT: f64 = 0.05;
 
 /// What a beam is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,6 +109,7 @@ impl Beam {
         let mut elements = Vec::with_capacity(stations.len() - 1);
         for (ends, poses) in stations.windows(2).zip(nodes.windows(2)) {
             let element = Element::between([ends[0], ends[1]], [&poses[0], &poses[1]], &spec)?;
+            element.check(elements.len())?;
             elements.push(element);
         }
         Ok(Self {
@@ -197,7 +203,20 @@ impl Division {
         }
         let fits = (end - length).abs() <= 1e-9 * length;
         demand("division (sum)", end, fits, "the beam's length")?;
+        // What rounding left over is shared by all: taken off the last part, it could turn it round.
+        let scale = length / end;
+        for station in &mut stations {
+            *station *= scale;
+        }
         stations[count] = length;
+        for (index, ends) in stations.windows(2).enumerate() {
+            demand(
+                format!("division[{index}]"),
+                lengths[index],
+                ends[1] > ends[0],
+                "long enough to tell the ends of the element apart",
+            )?;
+        }
         Ok(stations)
     }
 }
@@ -214,6 +233,14 @@ impl Rest {
             Self::Straight => Ok(()),
             Self::Curved(curvature) => check("rest", curvature),
             Self::Table(rows) => {
+                if rows.len() > MOST_ROWS {
+                    return Err(BeamError::Count {
+                        field: "rest",
+                        value: rows.len(),
+                        least: 0,
+                        most: MOST_ROWS,
+                    });
+                }
                 let mut last = f64::NEG_INFINITY;
                 for (index, (station, curvature)) in rows.iter().enumerate() {
                     let field = format!("rest[{index}]");
@@ -303,7 +330,14 @@ impl Element {
         )?;
         let x = along / chord;
         let y = poses[0].rotation * DVec3::Y + poses[1].rotation * DVec3::Y;
-        let z = x.cross(y).normalize();
+        let z = x.cross(y);
+        demand(
+            "division (twist of an element: how far its ends agree on y)",
+            0.5 * z.length(),
+            0.5 * z.length() > LEAST_AGREEMENT,
+            "more than 0.05: divide the twisted part more finely",
+        )?;
+        let z = z.normalize();
         let rest = DMat3::from_cols(x, z.cross(x), z);
         let flexibility = ElementFlexibility::new(ends, 1.0, spec);
         let mut element = Self {
@@ -324,5 +358,21 @@ impl Element {
             element.stiffness = NaturalStiffness::bent(&element, spec, first);
         }
         Ok(element)
+    }
+    /// An error unless its stiffness is within the range of numbers.
+    fn check(&self, index: usize) -> Result<(), BeamError> {
+        let stiffness = stiffness_12(self);
+        for (row, values) in stiffness.iter().enumerate() {
+            for (column, value) in values.iter().enumerate() {
+                if !value.is_finite() || (row == column && *value <= 0.0) {
+                    return Err(BeamError::Value {
+                        field: format!("profile (stiffness of element {index})"),
+                        value: *value,
+                        demand: "finite and above 0: lengths, sections or moduli are out of range",
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 }

@@ -3,8 +3,8 @@
 use crate::error::{BeamError, demand};
 use crate::section::Shape;
 
-/// Most rows of a table.
-const MOST_ROWS: usize = 10_000;
+/// Most rows of a table: each element looks through them.
+pub(crate) const MOST_ROWS: usize = 10_000;
 
 /// Sections along the length, from the root (s = 0) to the tip.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,4 +1,5 @@
 //! The catalogue against its table of stiffness: 1/k = ∫ (L − s)²/EI ds, worked out apart from this crate, to the digits printed.
+#![expect(clippy::float_cmp, reason = "numbers handed through are the same")]
 
 use glam::DVec3;
 use pliant_beam::{
@@ -101,11 +102,11 @@ const FAR_BENT: [(&str, f64, Printed); 12] = [
 ];
 
 fn beam(name: &str) -> Beam {
-    Beam::new(tool(name).unwrap()).unwrap()
+    Beam::new(tool(name).expect("a tool")).expect("no fault")
 }
 
 fn tip_stiffness(beam: &Beam) -> f64 {
-    let closed_form = ClosedForm::new(beam).unwrap();
+    let closed_form = ClosedForm::new(beam).expect("straight");
     let tip = closed_form.station(beam.length());
     1.0 / tip.compliance(&tip).translation_force.z_axis.z
 }
