@@ -175,6 +175,21 @@ impl Beam {
     }
 }
 
+impl BeamSpec {
+    /// Parts of the arc between two positions [m] within which section and curvature are smooth: between the stations of their tables.
+    pub(crate) fn pieces(&self, [start, end]: [f64; 2]) -> impl Iterator<Item = [f64; 2]> {
+        let mut from = start;
+        std::iter::from_fn(move || {
+            let next = |station: Option<f64>| station.unwrap_or(end).min(end);
+            let to =
+                next(self.profile.station_after(from)).min(next(self.rest.station_after(from)));
+            let piece = [from, to];
+            from = to;
+            (piece[0] < piece[1]).then_some(piece)
+        })
+    }
+}
+
 impl Division {
     /// Arc positions of the nodes, the first 0 and the last the length.
     fn stations(&self, length: f64) -> Result<Vec<f64>, BeamError> {
@@ -257,6 +272,15 @@ impl Rest {
                 Ok(())
             }
         }
+    }
+
+    /// The first station beyond an arc position [m].
+    fn station_after(&self, s: f64) -> Option<f64> {
+        let Self::Table(rows) = self else {
+            return None;
+        };
+        let next = rows.partition_point(|(station, _)| *station <= s);
+        rows.get(next).map(|(station, _)| *station)
     }
 
     /// Pose of the section at arc `to` relative to the one at `from`, within which the curvature may step.
@@ -353,7 +377,7 @@ impl Element {
             stiffness: NaturalStiffness::straight(&flexibility, arc),
             flexibility,
         };
-        if element.chord != element.arc {
+        if spec.rest != Rest::Straight {
             let first = DQuat::from_mat3(&rest).inverse() * poses[0].rotation;
             element.stiffness = NaturalStiffness::bent(&element, spec, first);
         }

@@ -80,7 +80,7 @@ fn flexibility(element: &Element, spec: &BeamSpec, first: DQuat) -> Matrix6 {
     let length = element.chord;
     let mut total = [[0.0; 6]; 6];
     let ends = [element.start, element.start + element.arc];
-    quadrature::over_pieces(ends, &spec.profile, spec.length, |s, weight| {
+    let mut add = |s: f64, weight: f64| {
         let section = spec.profile.at(s, spec.length).section(nu);
         let pose = Pose::new(first, DVec3::ZERO) * spec.rest.between(element.start, s);
         let to_section = DMat3::from_quat(pose.rotation).transpose();
@@ -111,7 +111,10 @@ fn flexibility(element: &Element, spec: &BeamSpec, first: DQuat) -> Matrix6 {
                 *entry += weight * (strain + (moment * per_moment).dot(other_moment));
             }
         }
-    });
+    };
+    for piece in spec.pieces(ends) {
+        quadrature::over_pieces(piece, &spec.profile, spec.length, &mut add);
+    }
     total
 }
 

@@ -54,6 +54,15 @@ impl Profile {
             .filter(move |station| *station > 0.0 && *station < length)
     }
 
+    /// The first station beyond an arc position [m].
+    pub(crate) fn station_after(&self, s: f64) -> Option<f64> {
+        let Self::Table(rows) = self else {
+            return None;
+        };
+        let next = rows.partition_point(|(station, _)| *station <= s);
+        rows.get(next).map(|(station, _)| *station)
+    }
+
     pub(crate) fn check(&self) -> Result<(), BeamError> {
         match self {
             Self::Uniform(shape) => shape.check("profile"),

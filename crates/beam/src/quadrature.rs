@@ -3,7 +3,7 @@
 use crate::profile::Profile;
 
 /// Abscissae and weights of Gauss's formula with ten points on −1…1 (Abramowitz & Stegun 1964, table 25.4), one of each pair.
-pub(crate) const GAUSS: [(f64, f64); 5] = [
+const GAUSS: [(f64, f64); 5] = [
     (0.148_874_338_981_631_2, 0.295_524_224_714_752_9),
     (0.433_395_394_129_247_2, 0.269_266_719_309_996_3),
     (0.679_409_568_299_024_4, 0.219_086_362_515_982),
@@ -24,11 +24,16 @@ pub(crate) fn over_pieces(
         .stations(length)
         .filter(|station| *station > start && *station < end);
     for to in between.chain(std::iter::once(end)) {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        for (abscissa, weight) in GAUSS {
-            add(middle - half * abscissa, half * weight);
-            add(middle + half * abscissa, half * weight);
-        }
+        over_piece([from, to], &mut add);
         from = to;
+    }
+}
+
+/// The same for one piece.
+pub(crate) fn over_piece([from, to]: [f64; 2], mut add: impl FnMut(f64, f64)) {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    for (abscissa, weight) in GAUSS {
+        add(middle - half * abscissa, half * weight);
+        add(middle + half * abscissa, half * weight);
     }
 }
