@@ -14,6 +14,8 @@ use crate::material_point::MaterialPoint;
 mod assembly;
 mod element;
 mod newton;
+#[cfg(test)]
+mod objectivity;
 
 use element::LocalStiffness;
 pub(crate) use element::{Frame, inverse_spin_map};
@@ -117,17 +119,33 @@ impl Corotational {
         }
     }
 
-    /// Force and moment that the clamp exerts on the beam, about the root, by the forces of the first element.
-    pub fn root_reaction(&self) -> Load {
+    /// Force and moment that the clamp exerts on the beam, about the root, by the forces of the first element less what loads on it
+    /// give to the root. Allocates nothing.
+    pub fn root_reaction(&self, loads: &AnchoredLoads) -> Load {
         let Some(frame) = self.frame(0) else {
             return Load::default();
         };
         let [force, moment, _] = frame.response(&self.stiffness[0]).forces;
-        Load {
+        let mut reaction = Load {
             s: 0.0,
             force: -force,
             moment,
+        };
+        for (follows, list) in [(false, &loads.dead), (true, &loads.followers)] {
+            for (point, load) in list.iter().filter(|(point, _)| point.element == 0) {
+                let placed = point.placed(&frame);
+                let turn = if follows {
+                    point.section(&frame, &placed)
+                } else {
+                    DMat3::IDENTITY
+                };
+                let local = load.map(|part| frame.axes.transpose() * (turn * part));
+                let shares = point.to_nodes(&frame, &placed, local);
+                reaction.force -= frame.axes * shares[0];
+                reaction.moment -= frame.axes * shares[1];
+            }
         }
+        reaction
     }
 
     fn frame(&self, index: usize) -> Option<Frame> {
@@ -160,7 +178,8 @@ pub struct AnchoredLoads {
 }
 
 impl AnchoredLoads {
-    /// Finds where the loads of a beam act. A line load becomes ten point loads an element.
+    /// Finds where the loads of a beam act. A line load becomes ten point loads an element, more where
+    /// the section's or the curvature's table has stations inside.
     pub fn new(beam: &Beam, loading: &Loading<'_>, followers: &[Load]) -> Self {
         let anchor = |load: &Load| {
             let point = MaterialPoint::new(beam, load.s, DVec3::ZERO);
@@ -169,14 +188,15 @@ impl AnchoredLoads {
         let mut dead: Vec<_> = loading.points.iter().map(anchor).collect();
         if loading.line != DVec3::ZERO {
             for element in beam.elements() {
-                for (abscissa, weight) in crate::quadrature::GAUSS {
-                    for side in [-abscissa, abscissa] {
+                let ends = [element.start, element.start + element.arc];
+                for piece in beam.spec().pieces(ends) {
+                    crate::quadrature::over_piece(piece, |s, weight| {
                         dead.push(anchor(&Load {
-                            s: element.start + element.arc * (0.5 + 0.5 * side),
-                            force: loading.line * (0.5 * weight * element.arc),
+                            s,
+                            force: loading.line * weight,
                             moment: DVec3::ZERO,
                         }));
-                    }
+                    });
                 }
             }
         }
