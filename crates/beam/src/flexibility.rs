@@ -117,6 +117,7 @@ fn ends([zeroth, first, second]: [f64; 3], shear: f64) -> [f64; 3] {
     let f11 = zeroth - 2.0 * first + second + shear;
     let f12 = second - first + shear;
     let f22 = second + shear;
-    let determinant = f11 * f22 - f12 * f12;
+    // f₁₁ f₂₂ − f₁₂² without the squares of the shear, in which a stubby element would lose all digits.
+    let determinant = zeroth * (second + shear) - first * first;
     [f22 / determinant, -f12 / determinant, f11 / determinant]
 }
