@@ -158,6 +158,23 @@ impl Corotational {
         )
     }
 
+    /// Turns the free nodes by `share` of the step in `unknowns` and moves them so that chords keep their lengths.
+    fn turn_without_stretch(&mut self, share: f64) {
+        let turn = |step: &[f64; 6]| DVec3::from_slice(&step[3..]) * share;
+        let mut before = DVec3::ZERO;
+        let mut old = self.state.positions[0];
+        for (node, step) in self.unknowns.iter().enumerate() {
+            let own = turn(step);
+            let chord = self.state.positions[node + 1] - old;
+            old = self.state.positions[node + 1];
+            let mean = quaternion_from_rotation_vector((before + own) * 0.5);
+            self.state.positions[node + 1] = self.state.positions[node] + mean * chord;
+            let rotation = &mut self.state.rotations[node + 1];
+            *rotation = (quaternion_from_rotation_vector(own) * *rotation).normalize();
+            before = own;
+        }
+    }
+
     /// Turns and moves the free nodes by the step in `unknowns`, `share` of it.
     fn advance(&mut self, share: f64) {
         for (node, step) in self.unknowns.iter().enumerate() {

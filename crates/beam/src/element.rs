@@ -1,4 +1,4 @@
-//! Stiffness matrices of single elements (beam.3, beam.4).
+//! Stiffness matrices of single elements.
 //!
 //! Order of unknowns: (u, v, w, r_x, r_y, r_z) of node 1, then of node 2, along and about the element's own axes; in the plane
 //! x–y a rotation r_z turns v up, in the plane x–z a rotation r_y turns w down. The paper's element (Laycock & Day 2003, §5) leaves
@@ -18,7 +18,7 @@ pub type Matrix10 = [[f64; 10]; 10];
 /// Where the unknowns of the 10-DOF element are among the twelve.
 const WITHOUT_TWIST: [usize; 10] = [0, 1, 2, 4, 5, 6, 7, 8, 10, 11];
 
-/// Stiffness in the element's own axes.
+/// Stiffness in the element's own axes (beam.3).
 pub fn stiffness_12(element: &Element) -> Matrix12 {
     let NaturalStiffness {
         axial,
@@ -74,7 +74,7 @@ fn deformations(length: f64) -> [[f64; 12]; 7] {
     rows
 }
 
-/// The paper's element, in its own axes: no twist, no torsional stiffness.
+/// The paper's element, in its own axes: no twist, no torsional stiffness (beam.4).
 pub fn stiffness_10(element: &Element) -> Matrix10 {
     let full = stiffness_12(element);
     WITHOUT_TWIST.map(|row| WITHOUT_TWIST.map(|column| full[row][column]))

@@ -1,4 +1,4 @@
-//! One co-rotational element: forces and full tangent (beam.20 to beam.23).
+//! One co-rotational element: forces and full tangent.
 //!
 //! Element-independent co-rotational formulation of Nour-Omid & Rankin (1991) with the element frame of Battini & Pacoste
 //! (2002): x along the chord, y between the section axes of both ends. Departing from them, the variation of that frame's roll is
@@ -13,7 +13,7 @@ use crate::beam::Element;
 use crate::closed_form::cross_matrix;
 use crate::natural::NaturalStiffness;
 
-/// Placement of an element and its deformation.
+/// Placement of an element and its deformation (beam.20).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     /// Element axes in the root's frame.
@@ -429,7 +429,7 @@ fn rotation_vector(matrix: &DMat3) -> Option<DVec3> {
     Some(vector * (sine.atan2(cosine) / sine))
 }
 
-/// What takes a spin to the change of the rotation vector, T⁻¹(θ) = I − S/2 + c S².
+/// What takes a spin to the change of the rotation vector, T⁻¹(θ) = I − S/2 + c S² (beam.21).
 pub(crate) fn inverse_spin_map(rotation: DVec3) -> DMat3 {
     let square = rotation.length_squared();
     let c = if square < 1e-2 {

@@ -1,19 +1,19 @@
 //! Newton's method with safeguards: steps of bounded turn, loads raised in parts when all at once fails, and the way off an
-//! unstable equilibrium.
+//! unstable equilibrium (beam.25).
 
 use glam::DVec3;
 
 use crate::corotational::{AnchoredLoads, Corotational};
 use crate::linear::Definiteness;
 
-/// Largest turn of a node in one step [rad]: beyond, the tangent says little (beam.25).
+/// Largest turn of a node in one step [rad]: beyond, the tangent says little.
 const LONGEST_TURN: f64 = 0.5;
 
 /// Parts into which loads are divided at the most, each a power of two.
 const FINEST_PART: f64 = 1.0 / 1024.0;
 
 /// Turn of the node that turns most in the kick off an unstable equilibrium [rad].
-const KICK: f64 = 0.2;
+const KICK: f64 = 0.05;
 
 /// Rounds of inverse iteration for the direction of that kick.
 const INVERSE_ROUNDS: u32 = 4;
@@ -200,7 +200,7 @@ impl Corotational {
         self.softest_shape();
         let size = self.step_size();
         if size.is_finite() && size > 0.0 {
-            self.advance(KICK / size);
+            self.turn_without_stretch(KICK / size);
             if let Some(descent) = self.descend(loads, settings) {
                 iterations += descent;
                 let run = self.newton(loads, 1.0, settings);
