@@ -353,7 +353,8 @@ impl Element {
             "at least 0.5: divide the curved part more finely",
         )?;
         let x = along / chord;
-        let y = poses[0].rotation * DVec3::Y + poses[1].rotation * DVec3::Y;
+        let both = |axis: DVec3| poses[0].rotation * axis + poses[1].rotation * axis;
+        let y = both(DVec3::Y) + both(DVec3::Z).cross(x);
         let z = x.cross(y);
         demand(
             "division (twist of an element: how far its ends agree on y)",

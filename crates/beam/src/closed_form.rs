@@ -17,13 +17,13 @@ struct Integrals {
     axial: [f64; 2],
     /// ∫ 1/GJ.
     torsion: f64,
-    /// ∫ tᵏ/EI_y, k = 0…3.
+    /// ∫ `tᵏ/EI_y`, k = 0…3.
     bending_y: [f64; 4],
-    /// ∫ tᵏ/EI_z, k = 0…3.
+    /// ∫ `tᵏ/EI_z`, k = 0…3.
     bending_z: [f64; 4],
-    /// ∫ tᵏ/GA_y, k = 0, 1.
+    /// ∫ `tᵏ/GA_y`, k = 0, 1.
     shear_y: [f64; 2],
-    /// ∫ tᵏ/GA_z, k = 0, 1.
+    /// ∫ `tᵏ/GA_z`, k = 0, 1.
     shear_z: [f64; 2],
 }
 
@@ -216,9 +216,9 @@ impl Integrals {
         let rate = |whole: f64, own: f64| (whole - own) / arc;
         let of_y = rate(whole.bending_y[0], self.bending_y[0]);
         let of_z = rate(whole.bending_z[0], self.bending_z[0]);
-        for k in 0..4 {
-            self.bending_y[k] += of_y * part[k];
-            self.bending_z[k] += of_z * part[k];
+        for (k, part) in part.into_iter().enumerate() {
+            self.bending_y[k] += of_y * part;
+            self.bending_z[k] += of_z * part;
         }
         self.torsion += rate(whole.torsion, self.torsion) * part[0];
         for (own, whole) in [

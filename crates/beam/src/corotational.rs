@@ -140,7 +140,7 @@ impl Corotational {
                     DMat3::IDENTITY
                 };
                 let local = load.map(|part| frame.axes.transpose() * (turn * part));
-                let shares = point.to_nodes(&frame, &placed, local);
+                let shares = point.nodal_loads(&frame, &placed, local);
                 reaction.force -= frame.axes * shares[0];
                 reaction.moment -= frame.axes * shares[1];
             }
@@ -221,5 +221,12 @@ impl AnchoredLoads {
             dead,
             followers: followers.iter().map(anchor).collect(),
         }
+    }
+
+    /// The largest force, or moment by a length [m], of all loads together [N].
+    fn size(&self, length: f64) -> f64 {
+        let all = self.dead.iter().chain(&self.followers);
+        all.map(|(_, [force, moment])| force.length() + moment.length() / length)
+            .sum()
     }
 }

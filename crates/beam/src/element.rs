@@ -1,8 +1,8 @@
 //! Stiffness matrices of single elements.
 //!
-//! Order of unknowns: (u, v, w, r_x, r_y, r_z) of node 1, then of node 2, along and about the element's own axes; in the plane
-//! x–y a rotation r_z turns v up, in the plane x–z a rotation r_y turns w down. The paper's element (Laycock & Day 2003, §5) leaves
-//! the twist r_x out: 10 unknowns, right for straight tools in the handle's frame.
+//! Order of unknowns: (u, v, w, `r_x`, `r_y`, `r_z`) of node 1, then of node 2, along and about the element's own axes; in the plane
+//! x–y a rotation `r_z` turns v up, in the plane x–z a rotation `r_y` turns w down. The paper's element (Laycock & Day 2003, §5) leaves
+//! the twist `r_x` out: 10 unknowns, right for straight tools in the handle's frame.
 
 use glam::DMat3;
 
@@ -12,7 +12,7 @@ use crate::natural::NaturalStiffness;
 /// Stiffness of an element with six unknowns a node, rows by columns [N/m, N, N·m].
 pub type Matrix12 = [[f64; 12]; 12];
 
-/// Stiffness of an element without twist, five unknowns a node (u, v, w, r_y, r_z).
+/// Stiffness of an element without twist, five unknowns a node (u, v, w, `r_y`, `r_z`).
 pub type Matrix10 = [[f64; 10]; 10];
 
 /// Where the unknowns of the 10-DOF element are among the twelve.
@@ -36,10 +36,10 @@ pub fn stiffness_12(element: &Element) -> Matrix12 {
     };
     add(0, 0, *axial);
     for end in 0..2 {
-        for axis in 0..3 {
+        for (axis, coupling) in coupling[end].to_array().into_iter().enumerate() {
             let row = 1 + 3 * end + axis;
-            add(0, row, coupling[end][axis]);
-            add(row, 0, coupling[end][axis]);
+            add(0, row, coupling);
+            add(row, 0, coupling);
             for other in 0..3 {
                 add(
                     row,

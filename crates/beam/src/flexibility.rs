@@ -14,13 +14,13 @@ pub struct ElementFlexibility {
     pub axial: f64,
     /// ∫ ds/GJ [rad/(N·m)].
     pub torsion: f64,
-    /// ∫ ξᵏ ds/EI_y, k = 0, 1, 2 [rad/(N·m)].
+    /// ∫ ξᵏ `ds/EI_y`, k = 0, 1, 2 [rad/(N·m)].
     pub bending_y: [f64; 3],
-    /// ∫ ξᵏ ds/EI_z, k = 0, 1, 2 [rad/(N·m)].
+    /// ∫ ξᵏ `ds/EI_z`, k = 0, 1, 2 [rad/(N·m)].
     pub bending_z: [f64; 3],
-    /// ∫ ds/GA_y, the shear along y that goes with bending about z [m/N]; 0 where sections do not shear.
+    /// ∫ `ds/GA_y`, the shear along y that goes with bending about z [m/N]; 0 where sections do not shear.
     pub shear_y: f64,
-    /// ∫ ds/GA_z [m/N]; 0 where sections do not shear.
+    /// ∫ `ds/GA_z` [m/N]; 0 where sections do not shear.
     pub shear_z: f64,
     /// ∫ A ds [m³].
     pub volume: f64,

@@ -17,7 +17,7 @@ pub struct ForceMethod {
 #[derive(Clone, Copy, Debug)]
 struct Element {
     length: f64,
-    /// u per f_x, r_x per m_x.
+    /// u per `f_x`, `r_x` per `m_x`.
     axial: f64,
     torsion: f64,
     about_y: Cantilever,
@@ -63,7 +63,7 @@ impl ForceMethod {
         })
     }
 
-    /// Displacements and rotations of the free nodes, in place of the forces and moments on them (f_x, f_y, f_z, m_x, m_y, m_z), in
+    /// Displacements and rotations of the free nodes, in place of the forces and moments on them (`f_x`, `f_y`, `f_z`, `m_x`, `m_y`, `m_z`), in
     /// the root's frame. Allocates nothing.
     ///
     /// # Panics

@@ -25,9 +25,9 @@ pub use consistent::consistent_loads;
 /// Unknowns of each node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unknowns {
-    /// u, v, w, r_y, r_z: the paper's, for straight tools in the handle's frame.
+    /// u, v, w, `r_y`, `r_z`: the paper's, for straight tools in the handle's frame.
     WithoutTwist,
-    /// u, v, w, r_x, r_y, r_z: any beam.
+    /// u, v, w, `r_x`, `r_y`, `r_z`: any beam.
     Six,
 }
 

@@ -95,7 +95,7 @@ impl MaterialPoint {
     }
 
     /// What a force and a moment on the point, in the element's axes, are at the nodes, in the element's axes (beam.24).
-    pub(crate) fn to_nodes(
+    pub(crate) fn nodal_loads(
         &self,
         frame: &Frame,
         placed: &Placed,
@@ -118,8 +118,8 @@ impl MaterialPoint {
         let roll = frame.roll();
         let second = DVec3::new(
             force.x * weights.stretch,
-            on_axes.z / frame.length,
-            -(on_axes.y + roll.lean * on_axes.x) / frame.length,
+            (on_axes.z + roll.lean.z * on_axes.x) / frame.length,
+            -(on_axes.y + roll.lean.y * on_axes.x) / frame.length,
         );
         [
             force - second,

@@ -101,7 +101,7 @@ impl Shape {
     }
 
     /// Largest strain of any fibre, of magnitude, when the centre line is strained by `axial` and the section bends with
-    /// `curvature` = (κ_y, κ_z) [1/m]: a fibre at (y, z) is strained by `axial` + z κ_y − y κ_z. Torsion is not part of it.
+    /// `curvature` = (`κ_y`, `κ_z`) [1/m]: a fibre at (y, z) is strained by `axial` + z `κ_y` − y `κ_z`. Torsion is not part of it.
     pub fn largest_strain(&self, axial: f64, curvature: DVec2) -> f64 {
         let round = |diameter: f64| axial.abs() + 0.5 * diameter * curvature.length();
         let corners = |y: f64, z: f64| axial.abs() + z * curvature.x.abs() + y * curvature.y.abs();

@@ -21,7 +21,7 @@ fn wire(elements: usize) -> Beam {
         rest: Rest::Straight,
         shear: Shear::Rigid,
     })
-    .unwrap()
+    .expect("a wire")
 }
 
 /// π²EI/4L².
@@ -101,7 +101,11 @@ fn above_it_the_tip_follows_the_elastica() {
         let mut method = Corotational::new(wire(20));
         let outcome = push(&mut method, ratio * critical());
         assert!(outcome.converged, "{ratio}: {outcome:?}");
-        assert_eq!(outcome.stability, Stability::Buckled, "{ratio}: {outcome:?}");
+        assert_eq!(
+            outcome.stability,
+            Stability::Buckled,
+            "{ratio}: {outcome:?}"
+        );
         let (along, across) = elastica(ratio);
         let place = tip(&method) / LENGTH;
         assert!((place.x - along).abs() < 0.02, "{ratio}: {place}, {along}");

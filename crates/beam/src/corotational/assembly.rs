@@ -102,7 +102,7 @@ impl Corotational {
                 load.map(|part| to_element * (section * part))
             }
         };
-        let shares = point.to_nodes(&frame, &placed, local);
+        let shares = point.nodal_loads(&frame, &placed, local);
         let [f1, m1, f2, m2] = shares.map(|share| frame.axes * share);
         self.add_load(point.element, [f1, m1]);
         self.add_load(point.element + 1, [f2, m2]);
@@ -122,14 +122,14 @@ impl Corotational {
         let placed = point.placed(frame);
         let roll = frame.roll();
         // Per spin of the element's axes, of the nodal loads less what the loads' own turn makes good.
-        let nodal = point.to_nodes(frame, &placed, local);
+        let nodal = point.nodal_loads(frame, &placed, local);
         let per_axes = DMat3::IDENTITY.to_cols_array_2d().map(|axis| {
             let axis = DVec3::from_array(axis);
             let turned = match kind {
                 Kind::Dead => local.map(|part| -axis.cross(part)),
                 Kind::Follower => [DVec3::ZERO; 2],
             };
-            let own = point.to_nodes(frame, &placed, turned);
+            let own = point.nodal_loads(frame, &placed, turned);
             [0, 1, 2, 3].map(|index| axis.cross(nodal[index]) + own[index])
         });
         // Per spin of an end relative to these axes: followers turn with their section.
@@ -139,7 +139,7 @@ impl Corotational {
                 match kind {
                     Kind::Dead => [DVec3::ZERO; 4],
                     Kind::Follower => {
-                        point.to_nodes(frame, &placed, local.map(|part| axis.cross(part)))
+                        point.nodal_loads(frame, &placed, local.map(|part| axis.cross(part)))
                     }
                 }
             })
@@ -157,13 +157,17 @@ impl Corotational {
             let inverse = 1.0 / frame.length;
             let difference = DMat3::from_cols(
                 DVec3::ZERO,
-                net.z_axis * inverse,
-                -(net.y_axis + net.x_axis * roll.lean) * inverse,
+                (net.z_axis + net.x_axis * roll.lean.z) * inverse,
+                -(net.y_axis + net.x_axis * roll.lean.y) * inverse,
             );
             let spins = [0, 1].map(|end| {
                 let share = roll.per_spin[end];
                 ends[end]
-                    + DMat3::from_cols(net.x_axis * share.x, net.x_axis * share.y, DVec3::ZERO)
+                    + DMat3::from_cols(
+                        net.x_axis * share.x,
+                        net.x_axis * share.y,
+                        net.x_axis * share.z,
+                    )
             });
             let turned = |block: DMat3| frame.axes * block * frame.axes.transpose();
             self.add_load_row(

@@ -24,15 +24,16 @@ pub(crate) struct Frame {
     pub(crate) stretch: f64,
     /// Rotation vectors of both ends from the element's axes, in them [rad].
     pub(crate) rotations: [DVec3; 2],
-    /// Section y axes of both ends, in the element's axes.
-    y_axes: [DVec3; 2],
+    /// Section axes of both ends, in the element's axes.
+    sections: [DMat3; 2],
 }
 
-/// How the element's axes turn per increment, in these axes: the spin is `roll` about x, d_z about −y and d_y about z, by length.
+/// How the element's axes turn per increment, in these axes: by `d_z` over the length about −y, by `d_y` over it about z, and about x
+/// by what follows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Roll {
-    /// e = q_x/q_y of the mean section axis q: per d_z, −e/length.
-    pub(crate) lean: f64,
+    /// Along x of the mean section axes y and z: per `d_y` by +z, per `d_z` by −y, over the length.
+    pub(crate) lean: DVec3,
     /// Per spin of either end.
     pub(crate) per_spin: [DVec3; 2],
 }
@@ -53,7 +54,10 @@ impl Frame {
         let chord = ends[1] - ends[0];
         let length = chord.length();
         let x = chord / length;
-        let mean = sections[0].y_axis + sections[1].y_axis;
+        // The y axis nearest to those of both ends, z axes counted as well: a round section must not tell one from the other.
+        let mean = sections[0].y_axis
+            + sections[1].y_axis
+            + (sections[0].z_axis + sections[1].z_axis).cross(x);
         let z = x.cross(mean);
         let across = z.length();
         // A mean axis almost along the chord has turned by a right angle: no element bends like that.
@@ -69,18 +73,28 @@ impl Frame {
             length,
             stretch: length - rest_length,
             rotations: [rotation_vector(&local[0])?, rotation_vector(&local[1])?],
-            y_axes: [local[0].y_axis, local[1].y_axis],
+            sections: local,
         })
     }
 
     /// How the axes turn.
     pub(crate) fn roll(&self) -> Roll {
-        let [q1, q2] = self.y_axes;
-        let half = 0.5 / (0.5 * (q1.y + q2.y));
+        let [first, second] = &self.sections;
+        let inverse = 1.0 / self.alignment();
+        let share = |of: &DMat3| {
+            DVec3::new(of.y_axis.y + of.z_axis.z, -of.y_axis.x, -of.z_axis.x) * inverse
+        };
+        let per_spin = [share(first), share(second)];
         Roll {
-            lean: (q1.x + q2.x) * half,
-            per_spin: [q1, q2].map(|q| DVec3::new(q.y, -q.x, 0.0) * half),
+            lean: -(per_spin[0] + per_spin[1]).with_x(0.0),
+            per_spin,
         }
+    }
+
+    /// How well the section axes of both ends go along with the element's: 4 when they do.
+    fn alignment(&self) -> f64 {
+        let [first, second] = &self.sections;
+        first.y_axis.y + first.z_axis.z + second.y_axis.y + second.z_axis.z
     }
 
     /// Forces and, in all nine increments, the tangent.
@@ -108,8 +122,8 @@ impl Frame {
         let moment = local.moments[0] + local.moments[1];
         let force = DVec3::new(
             local.axial,
-            -moment.z / self.length,
-            (moment.y + roll.lean * moment.x) / self.length,
+            -(moment.z + roll.lean.z * moment.x) / self.length,
+            (moment.y + roll.lean.y * moment.x) / self.length,
         );
         let [first, second] = [0, 1].map(|end| local.moments[end] - roll.per_spin[end] * moment.x);
         [force, first, second]
@@ -271,6 +285,10 @@ struct Ends(DVec3, DVec3);
 impl Frame {
     /// Blocks of the tangent: (d, d), (d, 1), (d, 2), (1, 1), (1, 2), (2, 2) for the force on the second node and the moments on both
     /// by the difference d of the end positions and the spins (beam.23).
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one kernel: its blocks share most of what they are made of"
+    )]
     fn tangent(&self, local: &Local, roll: &Roll, forces: &[DVec3; 3]) -> [DMat3; 6] {
         let inverse = 1.0 / self.length;
         let [p1, p2] = roll.per_spin;
@@ -281,8 +299,8 @@ impl Frame {
         let by_d = |whole: &DMat3, coupling: DVec3| {
             DMat3::from_cols(
                 coupling,
-                whole.z_axis * -inverse,
-                (whole.x_axis * roll.lean + whole.y_axis) * inverse,
+                (whole.x_axis * roll.lean.z + whole.z_axis) * -inverse,
+                (whole.x_axis * roll.lean.y + whole.y_axis) * inverse,
             )
         };
         let sum_d = by_d(&(whole_1 + whole_2), local.coupling[0] + local.coupling[1]);
@@ -291,41 +309,38 @@ impl Frame {
         let b21 = a21 - outer(whole_2.x_axis, p1);
         let b22 = a22 - outer(whole_2.x_axis, p2);
         let (sum_1, sum_2) = (b11 + b21, b12 + b22);
-        let lean = self.lean_variation();
+        let [lean_y, lean_z] = self.lean_variations();
         let net = local.coupling[0] + local.coupling[1];
         let force = forces[0];
         let around = DVec3::X.cross(force);
-        let per_spin = |sum: &DMat3, coupling: DVec3, lean: DVec3, share: DVec3| {
-            let z = sum.row(1) + sum.row(0) * roll.lean + lean * twist;
-            rows(coupling - share * net.x, sum.row(2) * -inverse, z * inverse)
-                + outer(around, share)
+        let per_spin = |sum: &DMat3, coupling: DVec3, lean: [DVec3; 2], share: DVec3| {
+            let y = sum.row(2) + sum.row(0) * roll.lean.z + lean[1] * twist;
+            let z = sum.row(1) + sum.row(0) * roll.lean.y + lean[0] * twist;
+            rows(coupling - share * net.x, y * -inverse, z * inverse) + outer(around, share)
         };
-        let relative = self.relative(roll, lean);
+        let [by_y, by_z] = [lean_y, lean_z].map(|lean| Self::relative(roll, lean));
         let of_net = self.by_difference(roll, net);
-        let of_lean = self.by_difference(roll, lean.0 + lean.1);
-        let y = sum_d.row(2) * -inverse - DVec3::X * (force.y * inverse);
-        let z = (sum_d.row(1) + sum_d.row(0) * roll.lean + of_lean * twist) * inverse
+        let [of_y, of_z] =
+            [lean_y, lean_z].map(|lean| self.by_difference(roll, lean.0 + lean.1) * twist);
+        let y = (sum_d.row(2) + sum_d.row(0) * roll.lean.z + of_z) * -inverse
+            - DVec3::X * (force.y * inverse);
+        let z = (sum_d.row(1) + sum_d.row(0) * roll.lean.y + of_y) * inverse
             - DVec3::X * (force.z * inverse);
         let turned = DMat3::from_cols(
             DVec3::ZERO,
-            DVec3::Z.cross(force) * inverse,
-            DVec3::new(-roll.lean, -1.0, 0.0).cross(force) * inverse,
+            DVec3::new(roll.lean.z, 0.0, 1.0).cross(force) * inverse,
+            DVec3::new(-roll.lean.y, -1.0, 0.0).cross(force) * inverse,
         );
         let dd = rows(of_net + DVec3::X * local.axial_stiffness, y, z) + turned;
-        let d1 = per_spin(&sum_1, local.coupling[0], relative.0, p1);
-        let d2 = per_spin(&sum_2, local.coupling[1], relative.1, p2);
-        let [own_1, own_2] = [0, 1].map(|end| self.axis_variations(end));
+        let d1 = per_spin(&sum_1, local.coupling[0], [by_y.0, by_z.0], p1);
+        let d2 = per_spin(&sum_2, local.coupling[1], [by_y.1, by_z.1], p2);
+        let of_shares = [self.share_variations(0), self.share_variations(1)];
         let shares = |end: usize, other: usize| {
-            let (x, y) = if end == 0 { own_1 } else { own_2 };
-            let pick = |of: Ends| {
-                let of = self.relative(roll, of);
+            let pick = |axis: usize| {
+                let of = Self::relative(roll, of_shares[end][axis]);
                 if other == 0 { of.0 } else { of.1 }
             };
-            rows(
-                pick(y) * (-0.5 * twist),
-                pick(x) * (0.5 * twist),
-                DVec3::ZERO,
-            )
+            rows(pick(0), pick(1), pick(2)) * -twist
         };
         let finish = |own: DMat3, sum: &DMat3, (end, other): (usize, usize)| {
             let (share, by) = (roll.per_spin[end], roll.per_spin[other]);
@@ -345,7 +360,7 @@ impl Frame {
 
     /// By both spins, from coefficients of the spins relative to the element's axes.
     #[inline]
-    fn relative(&self, roll: &Roll, Ends(c1, c2): Ends) -> Ends {
+    fn relative(roll: &Roll, Ends(c1, c2): Ends) -> Ends {
         let along = c1.x + c2.x;
         Ends(c1 - roll.per_spin[0] * along, c2 - roll.per_spin[1] * along)
     }
@@ -353,13 +368,18 @@ impl Frame {
     /// By the difference of the end positions, from the sum of those coefficients.
     #[inline]
     fn by_difference(&self, roll: &Roll, sum: DVec3) -> DVec3 {
-        DVec3::new(0.0, -sum.z, roll.lean * sum.x + sum.y) / self.length
+        DVec3::new(
+            0.0,
+            -(roll.lean.z * sum.x + sum.z),
+            roll.lean.y * sum.x + sum.y,
+        ) / self.length
     }
 
-    /// Variations of q_x/m and q_y/m, q the section axis of an end and m the y of the mean one: what the roll depends on.
+    /// Variations of what the roll takes from the spin of an end.
     #[inline]
-    fn axis_variations(&self, end: usize) -> (Ends, Ends) {
-        let q = self.y_axes[end];
+    fn share_variations(&self, end: usize) -> [Ends; 3] {
+        let own = &self.sections[end];
+        let (y, z) = (own.y_axis, own.z_axis);
         let place = |own: DVec3| {
             if end == 0 {
                 Ends(own, DVec3::ZERO)
@@ -367,42 +387,49 @@ impl Frame {
                 Ends(DVec3::ZERO, own)
             }
         };
-        (
-            self.quotient(place(per_x(q)), q.x),
-            self.quotient(place(per_y(q)), q.y),
-        )
+        [
+            self.quotient(place(per_alignment(own)), y.y + z.z),
+            self.quotient(place(-per_x(y)), -y.x),
+            self.quotient(place(-per_x(z)), -z.x),
+        ]
     }
 
-    /// Variation of the mean axis's q_x/m.
+    /// Variations of the lean of the mean axes y and z.
     #[inline]
-    fn lean_variation(&self) -> Ends {
-        let [q1, q2] = self.y_axes;
-        self.quotient(Ends(per_x(q1) * 0.5, per_x(q2) * 0.5), 0.5 * (q1.x + q2.x))
+    fn lean_variations(&self) -> [Ends; 2] {
+        let [first, second] = &self.sections;
+        let of =
+            |one: DVec3, two: DVec3| self.quotient(Ends(per_x(one), per_x(two)), one.x + two.x);
+        [
+            of(first.y_axis, second.y_axis),
+            of(first.z_axis, second.z_axis),
+        ]
     }
 
-    /// Variation of `value`/m from that of the value.
+    /// Variation of a value over the alignment from that of the value.
     #[inline]
     fn quotient(&self, of_value: Ends, value: f64) -> Ends {
-        let [q1, q2] = self.y_axes;
-        let inverse = 2.0 / (q1.y + q2.y);
-        let ratio = 0.5 * value * inverse;
+        let inverse = 1.0 / self.alignment();
+        let ratio = value * inverse;
+        let [first, second] = &self.sections;
         Ends(
-            (of_value.0 - per_y(q1) * ratio) * inverse,
-            (of_value.1 - per_y(q2) * ratio) * inverse,
+            (of_value.0 - per_alignment(first) * ratio) * inverse,
+            (of_value.1 - per_alignment(second) * ratio) * inverse,
         )
     }
 }
 
-/// Of q_x by the spin φ, δq = φ × q.
+/// Of `q_x` of an axis q by its spin φ, δq = φ × q.
 #[inline]
 fn per_x(q: DVec3) -> DVec3 {
     DVec3::new(0.0, q.z, -q.y)
 }
 
-/// Of q_y.
+/// Of `y_y` + `z_z` of a section's axes by its spin φ.
 #[inline]
-fn per_y(q: DVec3) -> DVec3 {
-    DVec3::new(-q.z, 0.0, q.x)
+fn per_alignment(section: &DMat3) -> DVec3 {
+    let (y, z) = (section.y_axis, section.z_axis);
+    DVec3::new(z.y - y.z, -z.x, y.x)
 }
 
 #[inline]

@@ -15,6 +15,20 @@ const FINEST_PART: f64 = 1.0 / 1024.0;
 /// Turn of the node that turns most in the kick off an unstable equilibrium [rad].
 const KICK: f64 = 0.05;
 
+/// Springs, in units of the beam's bending stiffness, that every step has: a round beam that has buckled is as happy with any turn of
+/// its shape about the load, and without them rounding would take it there. They cost a step at most.
+const STEADY: f64 = 1e-3;
+
+/// Residual, times the largest load, at which a shape that turns on and on is taken as found: a round beam's way to turn freely is only
+/// nearly free, since elements tell their roll by one of the section's axes.
+const FAINT: f64 = 1e-9;
+
+/// Longest step of such a turn [rad].
+const WANDER: f64 = 2e-3;
+
+/// The springs with which a shape that [`Corotational::solve`] finds must be stable.
+const NEUTRAL: f64 = 1e-6;
+
 /// Rounds of inverse iteration for the direction of that kick.
 const INVERSE_ROUNDS: u32 = 4;
 
@@ -81,38 +95,22 @@ impl Corotational {
         if lost {
             self.state.copy_from(&self.held);
         }
-        self.outcome(&run, if lost { 0.0 } else { 1.0 })
+        run.outcome(if lost { 0.0 } else { 1.0 })
     }
 
     /// Solves from the present shape, if need be from rest and in parts, and leaves an unstable shape for a stable one. Where a load
     /// cannot be held, the shape is that of the largest part which can, and the outcome says so. Allocates nothing.
     pub fn solve(&mut self, loads: &AnchoredLoads, settings: &Settings) -> Outcome {
         let from = self.newton(loads, 1.0, settings);
-        let mut outcome = self.outcome(&from, 1.0);
+        let mut outcome = from.outcome(1.0);
         if !from.converged {
             self.reset();
             outcome = self.in_parts(loads, settings, from.iterations);
         }
-        if outcome.converged
-            && outcome.stability == Stability::Unstable
-            && loads.followers.is_empty()
-        {
+        if outcome.converged && loads.followers.is_empty() && self.is_unstable(loads) {
             outcome = self.leave_unstable(loads, settings, outcome);
         }
         outcome
-    }
-
-    fn outcome(&self, run: &Run, held: f64) -> Outcome {
-        Outcome {
-            converged: run.converged && held >= 1.0,
-            held,
-            iterations: run.iterations,
-            step: run.step,
-            stability: match run.definiteness {
-                Definiteness::Positive => Stability::Stable,
-                Definiteness::Indefinite(_) | Definiteness::Singular => Stability::Unstable,
-            },
-        }
     }
 
     /// Raises the load from nothing: parts that fail are halved, parts that go well doubled.
@@ -129,14 +127,14 @@ impl Corotational {
                 held = share;
                 self.held.copy_from(&self.state);
                 if held >= 1.0 {
-                    return self.outcome(&run, held);
+                    return run.outcome(held);
                 }
                 part = f64::min(2.0 * part, 1.0 - held);
             } else {
                 self.state.copy_from(&self.held);
                 part *= 0.5;
                 if part < FINEST_PART {
-                    return self.outcome(&run, held);
+                    return run.outcome(held);
                 }
             }
         }
@@ -155,6 +153,8 @@ impl Corotational {
                 run.step = f64::NAN;
                 return run;
             }
+            let faint = self.residual_size() <= FAINT * share * loads.size(self.beam.length());
+            self.add_springs(STEADY);
             run.definiteness = self.tangent.factorise();
             if run.definiteness == Definiteness::Singular {
                 run.step = f64::NAN;
@@ -162,8 +162,13 @@ impl Corotational {
             }
             self.tangent.solve(&mut self.unknowns);
             run.iterations += 1;
+            let before = run.step;
             run.step = self.step_size();
             if !run.step.is_finite() {
+                return run;
+            }
+            if faint && run.step <= WANDER && run.step > 0.1 * before {
+                run.converged = true;
                 return run;
             }
             self.advance((LONGEST_TURN / run.step).min(1.0));
@@ -173,6 +178,25 @@ impl Corotational {
             }
         }
         run
+    }
+
+    /// Whether the least disturbance would take the present shape away. Leaves the tangent factorised.
+    fn is_unstable(&mut self, loads: &AnchoredLoads) -> bool {
+        if self.assemble(loads, 1.0).is_none() {
+            return true;
+        }
+        self.add_springs(NEUTRAL);
+        self.tangent.factorise() != Definiteness::Positive
+    }
+
+    /// The largest force, or moment by the beam's length, of the residual in `unknowns` [N].
+    fn residual_size(&self) -> f64 {
+        let per_length = 1.0 / self.beam.length();
+        self.unknowns.iter().fold(0.0, |largest: f64, residual| {
+            let force = DVec3::from_slice(&residual[..3]).length();
+            let moment = DVec3::from_slice(&residual[3..]).length() * per_length;
+            largest.max(force).max(moment)
+        })
     }
 
     /// The largest turn [rad] or displacement by the beam's length of the step in `unknowns`.
@@ -201,23 +225,20 @@ impl Corotational {
         let size = self.step_size();
         if size.is_finite() && size > 0.0 {
             self.turn_without_stretch(KICK / size);
-            if let Some(descent) = self.descend(loads, settings) {
-                iterations += descent;
-                let run = self.newton(loads, 1.0, settings);
-                iterations += run.iterations;
-                if run.converged && run.definiteness == Definiteness::Positive {
-                    return Outcome {
-                        iterations,
-                        step: run.step,
-                        stability: Stability::Buckled,
-                        ..unstable
-                    };
-                }
+            if let Some((descent, step)) = self.descend(loads, settings) {
+                return Outcome {
+                    iterations: iterations + descent,
+                    step,
+                    stability: Stability::Buckled,
+                    ..unstable
+                };
             }
+            iterations += 10 * settings.most_iterations;
         }
         self.state.copy_from(&self.held);
         Outcome {
             iterations,
+            stability: Stability::Unstable,
             ..unstable
         }
     }
@@ -242,37 +263,40 @@ impl Corotational {
     }
 
     /// Steps downhill until the tangent itself is definite and steps are short. Returns the iterations, `None` if it did not get there.
-    fn descend(&mut self, loads: &AnchoredLoads, settings: &Settings) -> Option<u32> {
-        // Springs to the present place, in units of the tip's bending stiffness.
-        let first = self.stiffness[0].natural.rotations[0];
-        let moment = first.y_axis.y.min(first.z_axis.z) * self.beam.elements()[0].chord;
-        let length = self.beam.length();
-        let unit = moment / (length * length);
+    fn descend(&mut self, loads: &AnchoredLoads, settings: &Settings) -> Option<(u32, f64)> {
         let mut springs = 1.0;
-        for iteration in 0..10 * settings.most_iterations {
+        for iteration in 1..=10 * settings.most_iterations {
             self.assemble(loads, 1.0)?;
-            let residual_step = self.shifted_step(unit, springs)?;
-            if residual_step == Definiteness::Positive {
-                let step = self.step_size();
-                if !step.is_finite() {
-                    return None;
+            let faint = self.residual_size() <= FAINT * loads.size(self.beam.length());
+            self.add_springs(springs);
+            match self.tangent.factorise() {
+                Definiteness::Singular => return None,
+                Definiteness::Indefinite(_) => springs *= 4.0,
+                Definiteness::Positive => {
+                    self.tangent.solve(&mut self.unknowns);
+                    let step = self.step_size();
+                    if !step.is_finite() {
+                        return None;
+                    }
+                    self.advance((0.5 * LONGEST_TURN / step).min(1.0));
+                    let found = step <= settings.tolerance || faint && step <= WANDER;
+                    if found && springs <= STEADY {
+                        return Some((iteration, step));
+                    }
+                    springs = f64::max(0.5 * springs, STEADY);
                 }
-                self.advance((0.5 * LONGEST_TURN / step).min(1.0));
-                if step < 1e-3 && springs <= 1.0 / 64.0 {
-                    return Some(iteration);
-                }
-                springs *= 0.5;
-            } else {
-                springs *= 4.0;
             }
         }
         None
     }
 
-    /// The step of the present residual with springs on the diagonal.
-    fn shifted_step(&mut self, unit: f64, springs: f64) -> Option<Definiteness> {
-        let share = unit * springs / self.unknowns.len() as f64;
+    /// Springs from every node to its present place, in units of the beam's own bending stiffness. They do not change what is in
+    /// balance, only the steps to it.
+    fn add_springs(&mut self, springs: f64) {
+        let first = self.stiffness[0].natural.rotations[0];
+        let moment = first.y_axis.y.min(first.z_axis.z) * self.beam.elements()[0].chord;
         let length = self.beam.length();
+        let share = springs * moment / (length * length * self.unknowns.len() as f64);
         let (diagonal, _, _) = self.tangent.blocks();
         for block in diagonal {
             for axis in 0..3 {
@@ -280,14 +304,20 @@ impl Corotational {
                 block[3 + axis][3 + axis] += share * length * 1e-2;
             }
         }
-        match self.tangent.factorise() {
-            Definiteness::Singular => None,
-            definiteness => {
-                if definiteness == Definiteness::Positive {
-                    self.tangent.solve(&mut self.unknowns);
-                }
-                Some(definiteness)
-            }
+    }
+}
+
+impl Run {
+    fn outcome(&self, held: f64) -> Outcome {
+        Outcome {
+            converged: self.converged && held >= 1.0,
+            held,
+            iterations: self.iterations,
+            step: self.step,
+            stability: match self.definiteness {
+                Definiteness::Positive => Stability::Stable,
+                Definiteness::Indefinite(_) | Definiteness::Singular => Stability::Unstable,
+            },
         }
     }
 }
