@@ -39,3 +39,7 @@ pub use material_point::MaterialPoint;
 pub use natural::NaturalStiffness;
 pub use profile::Profile;
 pub use section::{Section, Shape};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExample;

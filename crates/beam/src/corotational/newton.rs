@@ -19,11 +19,11 @@ const KICK: f64 = 0.05;
 /// its shape about the load, and without them rounding would take it there. They cost a step at most.
 const STEADY: f64 = 1e-3;
 
-/// Residual, times the largest load, at which a shape that turns on and on is taken as found: a round beam's way to turn freely is only
-/// nearly free, since elements tell their roll by one of the section's axes.
+/// Residual, times the largest load, that is rounding of the stiffest elements: where nothing else holds a shape, as the turn of a
+/// buckled round beam about its load, it makes steps without end.
 const FAINT: f64 = 1e-9;
 
-/// Longest step of such a turn [rad].
+/// Longest of such steps [rad].
 const WANDER: f64 = 2e-3;
 
 /// The springs with which a shape that [`Corotational::solve`] finds must be stable.
