@@ -1,8 +1,9 @@
 //! One co-rotational element: forces and full tangent.
 //!
-//! Element-independent co-rotational formulation of Nour-Omid & Rankin (1991) with the element frame of Battini & Pacoste
-//! (2002): x along the chord, y between the section axes of both ends. Departing from them, the variation of that frame's roll is
-//! kept in the tangent, so Newton converges quadratically and the assembled tangent is symmetric at equilibrium.
+//! Element-independent co-rotational formulation of Nour-Omid & Rankin (1991) with an element frame near that of Battini & Pacoste
+//! (2002): x along the chord, the others as near as they can be to the section axes of both ends. Departing from them, y and z
+//! count alike, the variation of the frame's roll is kept in the tangent, so that Newton converges quadratically and the assembled
+//! tangent is symmetric at equilibrium, and a chord shortens as its arc bends.
 //!
 //! Everything is written in the element's axes for nine increments: the difference d of the end positions, and the spins of both
 //! ends. Forces on the first node are minus those on the second.
