@@ -35,7 +35,7 @@ const INVERSE_ROUNDS: u32 = 4;
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Last step at which a solution counts as found: turns [rad], and displacements by the beam's length.
+    /// Last step at which a solution counts as found, next one in a tick: turns [rad], and displacements by the beam's length.
     pub tolerance: f64,
     /// Iterations of one solution, per part of the load.
     pub most_iterations: u32,
@@ -65,7 +65,7 @@ pub enum Stability {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Outcome {
-    /// The last step was within the tolerance and the whole load is on.
+    /// Within the tolerance, and the whole load is on.
     pub converged: bool,
     /// Part of the load that the present shape holds, 0 to 1.
     pub held: f64,
@@ -77,6 +77,15 @@ pub struct Outcome {
     pub stability: Stability,
 }
 
+/// When a solution counts as found.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Stop {
+    /// The last step was short.
+    Seen,
+    /// The next would be, as steps have shrunk.
+    Estimated,
+}
+
 /// One run of Newton's method at one load.
 struct Run {
     converged: bool,
@@ -86,11 +95,12 @@ struct Run {
 }
 
 impl Corotational {
-    /// Iterates from the present shape with the whole load, at most so often, and keeps what it has: for a tick. The next call
+    /// Iterates from the present shape with the whole load, at most so often, until the next step would be within the tolerance, and
+    /// keeps what it has: for a tick. The next call
     /// carries on from there. A beam thrown off course comes back to its last shape. Allocates nothing.
     pub fn iterate(&mut self, loads: &AnchoredLoads, settings: &Settings) -> Outcome {
         self.held.copy_from(&self.state);
-        let run = self.newton(loads, 1.0, settings);
+        let run = self.newton(loads, (1.0, Stop::Estimated), settings);
         let lost = !run.step.is_finite();
         if lost {
             self.state.copy_from(&self.held);
@@ -101,7 +111,7 @@ impl Corotational {
     /// Solves from the present shape, if need be from rest and in parts, and leaves an unstable shape for a stable one. Where a load
     /// cannot be held, the shape is that of the largest part which can, and the outcome says so. Allocates nothing.
     pub fn solve(&mut self, loads: &AnchoredLoads, settings: &Settings) -> Outcome {
-        let from = self.newton(loads, 1.0, settings);
+        let from = self.newton(loads, (1.0, Stop::Seen), settings);
         let mut outcome = from.outcome(1.0);
         if !from.converged {
             self.reset();
@@ -120,7 +130,7 @@ impl Corotational {
         self.held.copy_from(&self.state);
         loop {
             let share = f64::min(held + part, 1.0);
-            let mut run = self.newton(loads, share, settings);
+            let mut run = self.newton(loads, (share, Stop::Seen), settings);
             iterations += run.iterations;
             run.iterations = iterations;
             if run.converged {
@@ -141,7 +151,12 @@ impl Corotational {
     }
 
     /// Newton's method at a share of the load.
-    fn newton(&mut self, loads: &AnchoredLoads, share: f64, settings: &Settings) -> Run {
+    fn newton(
+        &mut self,
+        loads: &AnchoredLoads,
+        (share, stop): (f64, Stop),
+        settings: &Settings,
+    ) -> Run {
         let mut run = Run {
             converged: false,
             iterations: 0,
@@ -172,7 +187,14 @@ impl Corotational {
                 return run;
             }
             self.advance((LONGEST_TURN / run.step).min(1.0));
-            if run.step <= settings.tolerance {
+            // Steps shrink at least as fast as they just did.
+            let left = match stop {
+                Stop::Estimated if before.is_finite() && run.step < before => {
+                    run.step * (run.step / before)
+                }
+                _ => run.step,
+            };
+            if left <= settings.tolerance {
                 run.converged = true;
                 return run;
             }
