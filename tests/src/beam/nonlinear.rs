@@ -198,7 +198,7 @@ impl SpaceCase {
     }
 }
 
-/// A thin beam that does not stretch, of torsional and bending stiffnesses (GJ, EI_y, EI_z) [N·m²].
+/// A thin beam that does not stretch, of torsional and bending stiffnesses about x, y and z [N·m²].
 fn slender(length: f64, stiffness: DVec3, rest: Rest) -> Setup {
     let area = INEXTENSIBLE / length.powi(2);
     Setup {

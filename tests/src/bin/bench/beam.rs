@@ -25,7 +25,7 @@ const CONTACTS: [usize; 3] = [1, 4, 8];
 const BATCHES: usize = 200;
 
 /// A batch lasts at least this long [ns], so that the clock does not count.
-const BATCH_NS: f64 = 20_000.0;
+const BATCH_NS: u128 = 20_000;
 
 /// Longest time for one measurement [s].
 const PATIENCE_S: f64 = 1.0;
@@ -266,8 +266,8 @@ fn inner_force(beam: &Beam) -> Load {
 fn measure(method: &str, elements: usize, target: Option<f64>, call: &mut dyn FnMut()) -> Row {
     let began = Instant::now();
     call();
-    let once = began.elapsed().as_secs_f64().max(1e-9) * 1e9;
-    let per_batch = (BATCH_NS / once).ceil().clamp(1.0, 1e6) as u32;
+    let once = began.elapsed().as_nanos().max(1);
+    let per_batch = u32::try_from(BATCH_NS / once).unwrap_or(u32::MAX).max(1);
     let mut times = Vec::with_capacity(BATCHES);
     while times.len() < BATCHES && (times.len() < 3 || began.elapsed().as_secs_f64() < PATIENCE_S) {
         let start = Instant::now();
@@ -277,13 +277,13 @@ fn measure(method: &str, elements: usize, target: Option<f64>, call: &mut dyn Fn
         times.push(start.elapsed().as_secs_f64() * 1e9 / f64::from(per_batch));
     }
     times.sort_by(f64::total_cmp);
-    let at = |part: f64| times[((times.len() - 1) as f64 * part) as usize];
+    let at = |percent: usize| times[(times.len() - 1) * percent / 100];
     let row = Row {
         method: method.to_owned(),
         elements,
         least: times[0],
-        p50: at(0.5),
-        p99: at(0.99),
+        p50: at(50),
+        p99: at(99),
         target,
     };
     println!(
